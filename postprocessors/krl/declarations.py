@@ -1,4 +1,4 @@
-"""IR declarations as KRL lines: variables, structures, enumerations, signals, routine headers."""
+"""IR declarations as the words of KRL's macros: variables, structures, enumerations, signals, routine headers."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from rpl.writing.statements import CannotSayError
 from . import tables
 from .expressions import Expressions
 
+Words = dict[str, object]  # of a macro
 _LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral)
 
 
@@ -58,23 +59,25 @@ def sized(type: ir.Type) -> ir.Type:
     return type
 
 
-def variable_line(variable: ir.Variable, scope: Scope, in_data: bool) -> str:
+def variable_words(variable: ir.Variable, scope: Scope, in_data: bool) -> Words:
     """One variable. In a data list with its value; in a routine the value is assigned later."""
     expressions = Expressions(scope)
     type = sized(variable.type)
     word, brackets = type_parts(type, expressions)
-    words = ["DECL"]
-    if in_data and variable.scope in ("task", "global"):
-        words.append("GLOBAL")
-    if variable.storage == "constant" and in_data:
-        words.append("CONST")
-    text = f"{' '.join(words)} {word} {variable.name}{brackets}"
+    value = ""
     if variable.initial is not None and in_data and not isinstance(type, ir.ArrayType):
         initial = worked_out(variable.initial, scope)
         if not constant(initial):
             raise CannotSayError("a data list takes constants only")
-        text += f"={expressions.stored(initial)}"
-    return text
+        value = expressions.stored(initial)
+    return {
+        "everywhere": in_data and variable.scope in ("task", "global"),
+        "constant": in_data and variable.storage == "constant",
+        "type": word,
+        "name": variable.name,
+        "brackets": brackets,
+        "value": value,
+    }
 
 
 def worked_out(initial: ir.Expression, scope: Scope) -> ir.Expression:
@@ -127,40 +130,37 @@ def constant(value: ir.Expression) -> bool:
     return isinstance(value, _LITERALS)
 
 
-def record_line(record: ir.RecordDeclaration, scope: Scope) -> str:
+def record_words(record: ir.RecordDeclaration, scope: Scope) -> Words:
     expressions = Expressions(scope)
     parts, last = [], ""
     for name, type in record.fields:
         word, brackets = type_parts(sized(type), expressions)
         parts.append(f"{word} {name}{brackets}" if word != last else f"{name}{brackets}")
         last = word
-    return f"{_scope(record.scope)}STRUC {record.name} {','.join(parts)}"
+    return {"everywhere": everywhere(record.scope), "name": record.name, "parts": parts}
 
 
-def enum_line(enum: ir.EnumDeclaration) -> str:
-    return f"{_scope(enum.scope)}ENUM {enum.name} {','.join(enum.members)}"
-
-
-def signal_line(declaration: ir.SignalDeclaration, scope: Scope) -> str:
+def signal_words(declaration: ir.SignalDeclaration, scope: Scope) -> Words:
     """`SIGNAL name $OUT[1]`, a range, or another name that the signal stands for."""
     expressions = Expressions(scope)
-    signal, head = declaration.signal, f"{_scope(declaration.scope)}SIGNAL {declaration.name} "
+    signal = declaration.signal
+    words: Words = {"everywhere": everywhere(declaration.scope), "name": declaration.name, "last": ""}
     if signal.index is None:
         if signal.name is None:
             raise CannotSayError("this signal has neither number nor name")
-        return head + signal.name
+        return words | {"signal": signal.name}
     first = expressions.text(signal.index)
     if signal.last is not None:
         word = tables.GROUPS.get(signal.kind) or tables.SIGNALS.get(signal.kind, "$OUT")
-        return f"{head}{word}[{first}] TO {word}[{expressions.text(signal.last)}]"
-    return f"{head}{tables.SIGNALS[signal.kind]}[{first}]"
+        return words | {"signal": f"{word}[{first}]", "last": f"{word}[{expressions.text(signal.last)}]"}
+    return words | {"signal": f"{tables.SIGNALS[signal.kind]}[{first}]"}
 
 
-def _scope(scope: str) -> str:
-    return "GLOBAL " if scope in ("task", "global") else ""
+def everywhere(scope: str) -> bool:
+    return scope in ("task", "global")
 
 
-def header_line(routine: ir.Routine, scope: Scope, first: bool) -> str:
+def heading_words(routine: ir.Routine, scope: Scope, first: bool) -> Words:
     """`DEF name(a:IN,b[]:OUT)`; the first routine of a file is global without saying so."""
     expressions = Expressions(scope)
     parameters = []
@@ -170,16 +170,16 @@ def header_line(routine: ir.Routine, scope: Scope, first: bool) -> str:
         _, brackets = type_parts(parameter.type, expressions)
         empty = f"[{',' * brackets.count(',')}]" if brackets else ""
         parameters.append(f"{parameter.name}{empty}:{'OUT' if parameter.mode == 'reference' else 'IN'}")
-    everywhere = "" if first or routine.scope == "module" else "GLOBAL "
-    listed = ",".join(parameters) or " "
-    if routine.returns is None:
-        return f"{everywhere}DEF {routine.name}({listed})"
-    word, brackets = type_parts(routine.returns, expressions)
-    return f"{everywhere}DEFFCT {word}{brackets} {routine.name}({listed})"
+    return {
+        "everywhere": not (first or routine.scope == "module"),
+        "returns": "".join(type_parts(routine.returns, expressions)) if routine.returns is not None else "",
+        "name": routine.name,
+        "parameters": ",".join(parameters),
+    }
 
 
-def parameter_line(parameter: ir.Parameter, scope: Scope) -> str:
+def parameter_words(parameter: ir.Parameter, scope: Scope) -> Words:
     word, brackets = type_parts(parameter.type, Expressions(scope))
     if isinstance(parameter.type, ir.ArrayType | ir.StringType):
         brackets = f"[{',' * brackets.count(',')}]"
-    return f"DECL {word} {parameter.name}{brackets}"
+    return {"type": word, "name": parameter.name, "brackets": brackets}

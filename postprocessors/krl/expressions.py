@@ -214,7 +214,7 @@ class Expressions:
             case "compose", (first, second):
                 return f"({self.printer.atom(first)}:{self.printer.atom(second)})"
         if name in tables.PROCEDURES:
-            return self.procedure(name, values)
+            return "{procedure}({arguments})".format(**self.procedure(name, values))
         raise CannotSayError(f"KRL has no function {name}")
 
     def bound(self, array: ir.Expression, number: int) -> str:
@@ -226,7 +226,7 @@ class Expressions:
             raise CannotSayError("KRL cannot ask an array for its size")
         return self.printer.atom(found)
 
-    def procedure(self, name: str, values: tuple[ir.Expression | None, ...]) -> str:
+    def procedure(self, name: str, values: tuple[ir.Expression | None, ...]) -> dict[str, str]:
         spelled = tables.PROCEDURES[name]
         target = values[1] if len(values) > 1 else None
         if name in ("parse_number", "parse_value") and target is not None:
@@ -236,7 +236,7 @@ class Expressions:
             spelled = found
         if any(value is None for value in values):
             raise CannotSayError(f"KRL's {spelled} needs all its arguments")
-        return f"{spelled}({self.listed(tuple(value for value in values if value is not None))})"
+        return {"procedure": spelled, "arguments": self.listed(tuple(value for value in values if value is not None))}
 
     def listed(self, values: tuple[ir.Expression, ...]) -> str:
         return ",".join(self.text(value) for value in values)

@@ -1,4 +1,4 @@
-"""IR moves as KRL text: words, blends, relative moves, the settings of spline moves."""
+"""IR moves as the words of KRL: words, blends, relative moves, the settings of spline moves."""
 
 from __future__ import annotations
 
@@ -19,27 +19,32 @@ _WORDS = {
 }
 
 
+Words = dict[str, object]  # of a macro
+
+
 class Motion:
-    """Prints moves inside of one scope."""
+    """The words of moves inside of one scope."""
 
     def __init__(self, expressions: Expressions) -> None:
         self.expressions = expressions
 
-    def move(self, move: ir.Move) -> str:
+    def move(self, move: ir.Move) -> Words:
         word = _WORDS.get((move.kind, move.motion_class))
         if word is None:
             raise CannotSayError(f"KRL has no {move.motion_class} {move.kind} move")
         self.refuse(move)
         relative, axes = self.relative(move)
-        target = self.expressions.stored(move.target)
+        words: Words = {"word": word, "relative": relative, "reference": axes, "via": "", "angle": ""}
+        words["target"] = self.expressions.stored(move.target)
         if move.kind == "circular":
             if move.via is None:
                 raise CannotSayError("a circle needs an auxiliary point")
-            target = f"{self.expressions.stored(move.via)},{target}"
+            words["via"] = self.expressions.stored(move.via)
             if move.swept is not None:
-                target += f",CA {self.expressions.text(move.swept)}"
-        blend = self.blend(move.blend)
-        return f"{word}{relative} {target}{self.settings(move.settings)}{blend}{axes}"
+                words["angle"] = self.expressions.text(move.swept)
+        words["blend"] = self.blend(move.blend)
+        words["settings"] = self.settings(move.settings)
+        return words
 
     def refuse(self, move: ir.Move) -> None:
         """Settings that the passes before should have made modal, and those that KRL does not have at a move."""
@@ -95,30 +100,34 @@ class Motion:
         if size is not None and not (isinstance(size, ir.System) and size.name == name):
             raise CannotSayError("a blend whose size is not the modal one")
 
-    def settings(self, settings: tuple[tuple[ir.Expression, ir.Expression], ...]) -> str:
+    def settings(self, settings: tuple[tuple[ir.Expression, ir.Expression], ...]) -> list[str]:
         if not settings:
-            return ""
+            return []
         base = coupled(settings, self.expressions)
-        shown = [base[0]] if base is not None else []
+        shown = ["$BASE=EK({place},{kind},{frame})".format(**base[0])] if base is not None else []
         for target, value in grouped(settings[base[1] :] if base is not None else settings):
             if isinstance(target, str):
                 shown.append(f"{target}={self.expressions.text(value)}")
             else:
                 shown.append(assignment(ir.Assign(target, value), self.expressions))
-        return " WITH " + ",".join(shown)
+        return shown
 
-    def path_rule(self, rule: ir.PathRule) -> str:
+    def path_rule(self, rule: ir.PathRule) -> Words:
         """A line of a spline block about its speeds."""
         what, _, edge = rule.rule.partition("_")
+        words: Words = {"rule": "TIME_BLOCK", "edge": edge.upper(), "value": "", "from_start": False}
         if rule.value is None:
-            return f"TIME_BLOCK {edge.upper()}"
+            return words
         if what == "constant":
-            value = self.expressions.measured(rule.value, "mm")
-            return f"CONST_VEL {edge.upper()}={value}{' ONSTART' if rule.reference == 'start' else ''}"
-        value = self.expressions.measured(rule.value, "s") if edge == "end" else self.expressions.text(rule.value)
-        return f"TIME_BLOCK {edge.upper()}={value}"
+            words |= {"rule": "CONST_VEL", "from_start": rule.reference == "start"}
+            return words | {"value": self.expressions.measured(rule.value, "mm")}
+        measured = edge == "end"
+        return words | {
+            "value": self.expressions.measured(rule.value, "s") if measured else self.expressions.text(rule.value)
+        }
 
-    def spline(self, spline: ir.Spline) -> tuple[str, str]:
-        """First and last line of a spline block."""
+    def spline(self, spline: ir.Spline) -> tuple[Words, Words]:
+        """The words of the first and of the last line of a spline block."""
         word = "PTP_SPLINE" if spline.kind == "joint" else "SPLINE"
-        return word + self.settings(spline.settings), "ENDSPLINE" + self.blend(spline.blend)
+        head: Words = {"word": word, "settings": self.settings(spline.settings)}
+        return head, {"blend": self.blend(spline.blend)}

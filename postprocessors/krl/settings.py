@@ -49,8 +49,9 @@ def coupled_base(pairs: Sequence[Pair]) -> tuple[str, ir.Expression, ir.Expressi
     return word, frame, unit, root
 
 
-def coupled(pairs: Sequence[Pair], expressions: Expressions) -> tuple[str, int] | None:
-    """`$BASE=EK(...)` for such pairs, and how many they are. The root that nobody says is the machine's own."""
+def coupled(pairs: Sequence[Pair], expressions: Expressions) -> tuple[dict[str, str], int] | None:
+    """The words of `$BASE=EK(...)` for such pairs, and how many they are. The root that nobody says is the machine's
+    own."""
     found = coupled_base(pairs)
     if found is None:
         return None
@@ -63,7 +64,8 @@ def coupled(pairs: Sequence[Pair], expressions: Expressions) -> tuple[str, int] 
     else:
         place = setting("base_root", root, expressions) if root is not None else f"EX_AX_DATA[{number}].ROOT"
     kind = f"#{word}" if word else expressions.text(unit)
-    return f"$BASE=EK({place},{kind},{setting('base', frame, expressions)})", 2 if root is None else 3
+    words = {"place": place, "kind": kind, "frame": setting("base", frame, expressions)}
+    return words, 2 if root is None else 3
 
 
 def all_axes(pairs: Sequence[Pair]) -> bool:
@@ -106,17 +108,26 @@ def grouped(pairs: Sequence[Pair]) -> list[tuple[str, ir.Expression] | Pair]:
 
 
 def assignment(statement: ir.Assign, expressions: Expressions) -> str:
-    """An assignment; modal variables take their value in KRL's unit, modes their own member."""
+    """An assignment inside of another statement."""
+    words = assigned(statement, expressions)
+    return f"{words['target']}={words['value']}"
+
+
+def assigned(statement: ir.Assign, expressions: Expressions) -> dict[str, str]:
+    """The words of an assignment; modal variables take their value in KRL's unit, modes their own member."""
     target, value = statement.target, statement.value
     match target:
         case ir.System(name=name):
-            return f"{expressions.system(target, _own_unit(name))}={setting(name, value, expressions)}"
+            place, shown = expressions.system(target, _own_unit(name)), setting(name, value, expressions)
         case ir.Signal():
-            return f"{expressions.signal(target)}={expressions.text(value)}"
+            place, shown = expressions.signal(target), expressions.text(value)
         case ir.Name() | ir.Index() | ir.Field():
             known = expressions.type(target) is not None
-            return f"{expressions.place(target)}={expressions.stored(value) if known else expressions.text(value)}"
-    raise CannotSayError("this cannot be assigned to")
+            place = expressions.place(target)
+            shown = expressions.stored(value) if known else expressions.text(value)
+        case _:
+            raise CannotSayError("this cannot be assigned to")
+    return {"target": place, "value": shown}
 
 
 def _own_unit(name: str) -> str:

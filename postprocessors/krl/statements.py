@@ -1,4 +1,5 @@
-"""IR statements as KRL lines. What KRL cannot say becomes a guarded stop: the original as a comment, then HALT."""
+"""IR statements as the words of KRL's macros. What KRL cannot say is a guarded stop: the original as a remark, then
+HALT."""
 
 from __future__ import annotations
 
@@ -11,12 +12,13 @@ from rpl.passes.scope import Scope
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError, StatementPrinter
+from rpl.writing.templates import Macros
 
 from . import tables
 from .declarations import constant, elements
 from .expressions import Expressions
 from .motion import Motion
-from .settings import assignment, coupled, speed_of_axes, whole_structure
+from .settings import assigned, assignment, coupled, speed_of_axes, whole_structure
 
 GUARDED = code(
     "krl-guarded-stop",
@@ -32,7 +34,6 @@ DIALOG = code(
 )
 LONG_LINE = code("krl-long-line", Severity.WARNING, "a line of {length} characters; controllers read at most {most}")
 
-_STEP = "  "
 _BRAKES = {"BRAKE_SOFT": "BRAKE", "BRAKE_HARD": "BRAKE F"}  # routines of the reader's prelude
 _LARGEST_STRUCTURE = 6
 
@@ -42,8 +43,9 @@ class Printer(StatementPrinter[str]):
 
     guarded, dialect = GUARDED, "krl"
 
-    def __init__(self, scope: Scope, ledger: EmissionLedger, diagnostics: Diagnostics) -> None:
+    def __init__(self, scope: Scope, ledger: EmissionLedger, diagnostics: Diagnostics, macros: Macros) -> None:
         super().__init__(ledger, diagnostics)
+        self.say, self.step = macros, macros("step")
         self.scope = scope
         self.expressions = Expressions(scope)
         self.motion = Motion(self.expressions)
@@ -51,24 +53,31 @@ class Printer(StatementPrinter[str]):
     # ---- lines and comments
 
     def line(self, text: str, origin: Origin | None = None) -> None:
-        """One line, with the comments that belong to its statement."""
-        indent = _STEP * self.depth
+        """The line or lines of a statement, with its comments before them and behind the first."""
+        indent = self.step * self.depth
         behind = ""
         for comment in origin.comments if origin else ():
             if comment.behind:
-                behind = f" ;{_one_line(comment.text)}"
+                behind = self.say("behind", text=_one_line(comment.text))
             else:
                 self.comment(comment)
-        whole = f"{indent}{text}{behind}"
-        if len(whole) > tables.LONGEST_LINE and origin is not None:
-            self.diagnostics.report(LONG_LINE, origin, length=len(whole), most=tables.LONGEST_LINE)
-        self.lines.append(whole)
+        for part in text.splitlines() or [""]:
+            whole = f"{indent}{part}{behind}"
+            if len(whole) > tables.LONGEST_LINE and origin is not None:
+                self.diagnostics.report(LONG_LINE, origin, length=len(whole), most=tables.LONGEST_LINE)
+            self.lines.append(whole)
+            behind = ""
+
+    def word(self, text: str, origin: Origin | None = None) -> None:
+        self.line(self.say("word", text=text), origin)
 
     def remark(self, text: str) -> None:
-        self.lines.extend(f"{_STEP * self.depth};{part}" for part in text.splitlines() or [""])
+        indent = self.step * self.depth
+        for part in text.splitlines() or [""]:
+            self.lines.extend(f"{indent}{line}" for line in self.say.lines("remark", text=part))
 
     def stop(self) -> None:
-        self.lines.append(f"{_STEP * self.depth}HALT")
+        self.line(self.say("stop"))
 
     # ---- bodies
 
@@ -95,12 +104,14 @@ class Printer(StatementPrinter[str]):
         try:
             base = coupled(pairs, self.expressions)
             if base is not None:
-                shown, count = base
+                words, count = base
+                shown = self.say("external_base", **words)
             elif whole is not None:
                 name, value = whole
-                shown, count = f"{name}={self.expressions.text(value)}", len(tables.STRUCTURES[name])
+                shown = self.say("assign", target=name, value=self.expressions.text(value))
+                count = len(tables.STRUCTURES[name])
             elif speed_of_axes(pairs):
-                shown, count = f"BAS(#VEL_PTP,{self.expressions.text(pairs[0][1])})", len(pairs)
+                shown, count = self.say("speed_of_axes", percent=self.expressions.text(pairs[0][1])), len(pairs)
             else:
                 return 0
         except CannotSayError:
@@ -135,7 +146,8 @@ class Printer(StatementPrinter[str]):
         if not constant(value):
             raise CannotSayError("an array filled at once with computed values")
         for number, one in enumerate(elements(target, (), value, len(type.dimensions))):
-            self.line(assignment(one, self.expressions), statement.origin if number == 0 else None)
+            shown = self.say("assign", **assigned(one, self.expressions))
+            self.line(shown, statement.origin if number == 0 else None)
 
     # ---- blocks
 
@@ -150,110 +162,112 @@ class Printer(StatementPrinter[str]):
             case ir.For():
                 self.counting(statement)
             case ir.While(condition=condition, body=body):
-                self.line(f"WHILE {text(condition)}", origin)
+                self.line(self.say("while_head", condition=text(condition)), origin)
                 self.body(body)
-                self.line("ENDWHILE")
+                self.word("ENDWHILE")
             case ir.Repeat(until=until, body=body):
-                ending = f"UNTIL {text(until)}"
-                self.line("REPEAT", origin)
+                ending = self.say("until", condition=text(until))
+                self.word("REPEAT", origin)
                 self.body(body)
                 self.line(ending)
             case ir.Loop(body=body):
-                self.line("LOOP", origin)
+                self.word("LOOP", origin)
                 self.body(body)
-                self.line("ENDLOOP")
+                self.word("ENDLOOP")
             case ir.Spline():
                 head, tail = self.motion.spline(statement)
-                self.line(head, origin)
+                self.line(self.say("spline_head", **head), origin)
                 self.body(statement.body)
-                self.line(tail)
+                self.line(self.say("spline_end", **tail))
 
     def branches(
         self, branches: tuple[tuple[ir.Expression, ir.Body], ...], otherwise: ir.Body, origin: Origin | None
     ) -> None:
         """IF ... ELSE ... ENDIF; further branches nest, because KRL has no ELSEIF."""
         (condition, body), *rest = branches
-        self.line(f"IF {self.expressions.text(condition)} THEN", origin)
+        self.line(self.say("if_head", condition=self.expressions.text(condition)), origin)
         self.body(body)
         if rest or otherwise:
-            self.line("ELSE")
+            self.word("ELSE")
             if rest:
                 self.depth += 1
                 self.branches(tuple(rest), otherwise, None)
                 self.depth -= 1
             else:
                 self.body(otherwise)
-        self.line("ENDIF")
+        self.word("ENDIF")
 
     def switch(self, statement: ir.Switch) -> None:
         if not statement.cases:
             raise CannotSayError("a SWITCH without a CASE")
-        self.line(f"SWITCH {self.expressions.text(statement.selector)}", statement.origin)
+        self.line(self.say("switch_head", selector=self.expressions.text(statement.selector)), statement.origin)
         self.depth += 1
         for case in statement.cases:
             values = ",".join(self.expressions.text(value) for value in case.values)
-            self.line(f"CASE {values}")
+            self.line(self.say("case", values=values))
             self.body(case.body)
         if statement.default is not None:
-            self.line("DEFAULT")
+            self.word("DEFAULT")
             self.body(statement.default)
         self.depth -= 1
-        self.line("ENDSWITCH")
+        self.word("ENDSWITCH")
 
     def counting(self, loop: ir.For) -> None:
         if loop.scoped or loop.automatic or loop.at_least_once:
             raise CannotSayError("a loop whose counter or first pass follows another language's rule")
         text = self.expressions.text
-        step = f" STEP {text(loop.step)}" if loop.step is not None else ""
-        self.line(f"FOR {loop.counter}={text(loop.start)} TO {text(loop.stop)}{step}", loop.origin)
+        step = text(loop.step) if loop.step is not None else ""
+        start, stop = text(loop.start), text(loop.stop)
+        self.line(self.say("for_head", counter=loop.counter, start=start, stop=stop, step=step), loop.origin)
         self.body(loop.body)
-        self.line("ENDFOR")
+        self.word("ENDFOR")
 
     # ---- simple statements
 
     def simple(self, statement: ir.Statement) -> str:
-        text = self.expressions.text
+        text, say = self.expressions.text, self.say
         match statement:
             case ir.Assign():
-                return assignment(statement, self.expressions)
+                return say("assign", **assigned(statement, self.expressions))
             case ir.CallRoutine():
-                return call(statement, self.expressions)
+                return say("call", **called(statement, self.expressions))
             case ir.ExitLoop():
-                return "EXIT"
+                return say("word", text="EXIT")
             case ir.Label(name=name):
-                return f"{name}:"
+                return say("label", name=name)
             case ir.Goto(label=name):
-                return f"GOTO {name}"
+                return say("goto", name=name)
             case ir.Return(value=value):
-                return f"RETURN {text(value)}" if value is not None else "RETURN"
+                return say("return_value", value=text(value)) if value is not None else say("word", text="RETURN")
             case ir.Halt():
-                return "HALT"
+                return say("word", text="HALT")
             case ir.Wait(time=time):
-                return f"WAIT SEC {self.expressions.measured(time, 's')}"
+                return say("wait", time=self.expressions.measured(time, "s"))
             case ir.WaitUntil(condition=condition, timeout=None, error=None):
-                return f"WAIT FOR {text(condition)}"
+                return say("wait_until", condition=text(condition))
             case ir.WaitForMotion():
-                return "WAIT SEC 0"
+                return say("wait", time="0")
             case ir.LookAhead():
-                return "CONTINUE"
+                return say("word", text="CONTINUE")
             case ir.Pulse(signal=signal, value=value, duration=duration):
-                return f"PULSE({text(signal)},{text(value)},{self.expressions.measured(duration, 's')})"
+                length = self.expressions.measured(duration, "s")
+                return say("pulse", signal=text(signal), value=text(value), time=length)
             case ir.StopMotion(hard=hard):
-                return "BRAKE F" if hard else "BRAKE"
+                return say("word", text="BRAKE F" if hard else "BRAKE")
             case ir.ResumeLevel():
-                return "RESUME"
+                return say("word", text="RESUME")
             case ir.Do(procedure=procedure, arguments=arguments) if procedure in tables.PROCEDURES:
-                return self.expressions.procedure(procedure, arguments)
+                return say("do", **self.expressions.procedure(procedure, arguments))
             case ir.Message() | ir.Dialog():
                 return self.told(statement)
             case ir.DeclareInterrupt() | ir.ControlInterrupt():
                 return self.interrupt(statement)
             case ir.Move():
-                return self.motion.move(statement)
+                return say("move", **self.motion.move(statement))
             case ir.Trigger():
                 return self.trigger(statement)
             case ir.PathRule():
-                return self.motion.path_rule(statement)
+                return say("path_rule", **self.motion.path_rule(statement))
         raise CannotSayError(f"KRL has no {statement.__class__.__name__}")
 
     def interrupt(self, statement: ir.DeclareInterrupt | ir.ControlInterrupt) -> str:
@@ -262,12 +276,15 @@ class Printer(StatementPrinter[str]):
             if statement.op in ("delete", "mask"):
                 done = "deleted" if statement.op == "delete" else "masked by its urgency"
                 raise CannotSayError(f"an interrupt cannot be {done}")
-            priority = f" {text(statement.handle)}" if statement.handle is not None else ""
-            return f"INTERRUPT {statement.op.upper()}{priority}"
-        everywhere = "GLOBAL " if statement.everywhere else ""
-        action = self.action(statement.action)
-        condition = text(statement.condition)
-        return f"{everywhere}INTERRUPT DECL {text(statement.priority)} WHEN {condition} DO {action}"
+            priority = text(statement.handle) if statement.handle is not None else ""
+            return self.say("control_interrupt", how=statement.op.upper(), priority=priority)
+        return self.say(
+            "interrupt",
+            everywhere=statement.everywhere,
+            action=self.action(statement.action),
+            condition=text(statement.condition),
+            priority=text(statement.priority),
+        )
 
     def trigger(self, trigger: ir.Trigger) -> str:
         text = self.expressions
@@ -276,9 +293,11 @@ class Printer(StatementPrinter[str]):
         output = isinstance(action, ir.Assign) and isinstance(action.target, ir.Signal)
         if bare and output and trigger.reference == "start":
             assert isinstance(action, ir.Assign)
-            written = assignment(action, text)
+            words = assigned(action, text)
             self.ledger.merged(action)
-            return written.replace("$OUT[", "$OUT_C[", 1) if written.startswith("$OUT[") else self.at(trigger, action)
+            if words["target"].startswith("$OUT["):
+                words["target"] = words["target"].replace("$OUT[", "$OUT_C[", 1)
+                return self.say("assign", **words)
         return self.at(trigger, action)
 
     def at(self, trigger: ir.Trigger, action: ir.Assign | ir.CallRoutine) -> str:
@@ -294,7 +313,7 @@ class Printer(StatementPrinter[str]):
         done = self.action(action)
         if not priority and isinstance(action, ir.CallRoutine) and not done.startswith("PULSE("):
             priority = "-1"  # a subroutine needs one: the controller's own choice
-        return f"TRIGGER WHEN {where} DELAY={delay} DO {done}" + (f" PRIO={priority}" if priority else "")
+        return self.say("trigger", where=where, delay=delay, action=done, priority=priority)
 
     def action(self, action: ir.Assign | ir.CallRoutine) -> str:
         if isinstance(action, ir.Assign):
@@ -304,7 +323,7 @@ class Printer(StatementPrinter[str]):
             if number is not None and value is not None and time is not None:
                 text = self.expressions.text
                 return f"PULSE($OUT[{text(number)}],{text(value)},{text(time)})"
-        return _BRAKES.get(action.name.upper()) or call(action, self.expressions)
+        return _BRAKES.get(action.name.upper()) or "{name}({arguments})".format(**called(action, self.expressions))
 
     # ---- messages
 
@@ -326,20 +345,20 @@ class Printer(StatementPrinter[str]):
                 raise CannotSayError(f"KRL has no message of kind {statement.kind}")
             if len(shown) == 2 and statement.sender is None:
                 shown.pop()
-            return f"{tables.MESSAGES[statement.kind]}({','.join(shown)})"
+            return self.say("message", function=tables.MESSAGES[statement.kind], arguments=shown)
         if statement.kind != "keys" or statement.timeout is not None:
             raise CannotSayError("KRL's dialogs are answered by a key, without a time limit", DIALOG)
         shown[0:0] = [text(statement.answer)]
         shown.extend([""] * (6 - len(shown)))
         shown.extend(text(key) if key is not None else "" for key in statement.keys)
-        return f"MsgDialog({','.join(shown)})"
+        return self.say("message", function="MsgDialog", arguments=shown)
 
 
 def _one_line(text: str) -> str:
     return " ".join(text.splitlines())
 
 
-def call(statement: ir.CallRoutine, expressions: Expressions) -> str:
+def called(statement: ir.CallRoutine, expressions: Expressions) -> dict[str, str]:
     if statement.dynamic is not None:
         raise CannotSayError("KRL has no call by a computed name")
-    return f"{statement.name}({expressions.arguments(statement.arguments) or ' '})"
+    return {"name": statement.name, "arguments": expressions.arguments(statement.arguments) or " "}

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
-from rpl.writing.templates import templates
+from rpl.writing.templates import Macros, macros_of
 
 from . import tables
-from .declarations import enum_line, first_values, header_line, parameter_line, record_line, signal_line, variable_line
-from .settings import assignment
+from .declarations import (
+    everywhere,
+    first_values,
+    heading_words,
+    parameter_words,
+    record_words,
+    signal_words,
+    variable_words,
+)
+from .settings import assigned
 from .statements import Printer
 
 LOST_DECLARATION = code(
@@ -26,34 +32,31 @@ _CONFIG = "$config"
 _KRL_FILES = (".src", ".dat", ".sub")
 
 
-@dataclass(frozen=True, slots=True)
-class RoutineText:
-    """What the template needs of one routine."""
-
-    before: tuple[str, ...]
-    head: str
-    lines: tuple[str, ...]
-    foot: str
-
-
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All files of a program. Raises InternalError when the ledger finds a node that nobody accounted for."""
     ledger = EmissionLedger()
     scopes = ProgramScope(program)
     background = {name for task in program.tasks if task.kind == "background" for name in task.modules}
     files: list[OutputFile] = []
+    macros = macros_of(__package__, context.templates)
     for module in program.modules:
-        files.extend(_Module(module, scopes, ledger, context, module.name in background).files())
+        files.extend(_Module(module, scopes, ledger, context, macros, module.name in background).files())
     ledger.check(program)
     return files
 
 
 class _Module:
     def __init__(
-        self, module: ir.Module, scopes: ProgramScope, ledger: EmissionLedger, context: WriteContext, background: bool
+        self,
+        module: ir.Module,
+        scopes: ProgramScope,
+        ledger: EmissionLedger,
+        context: WriteContext,
+        macros: Macros,
+        background: bool,
     ) -> None:
         self.module, self.scopes, self.ledger, self.background = module, scopes, ledger, background
-        self.diagnostics = context.diagnostics
+        self.diagnostics, self.say = context.diagnostics, macros
         self.scope = scopes.module(module)
 
     def files(self) -> list[OutputFile]:
@@ -67,20 +70,17 @@ class _Module:
             fits = self.named_after_module()
             routines = [self.routine(routine, fits and index == 0) for index, routine in enumerate(self.ordered())]
             if not fits:
-                routines.insert(0, RoutineText((), f"DEF {module.name}( )", (), "END"))
+                heading = self.say("heading", everywhere=False, returns="", name=module.name, parameters="")
+                routines.insert(0, self.say("routine", before=(), heading=heading, lines=(), foot="END"))
             suffix = "sub" if self.background else "src"
-            text = templates(__package__).get_template("program.src.j2").render(attributes=program, routines=routines)
+            text = self.say("program", attributes=program, routines=routines)
             found.append(_file(f"{module.name}.{suffix}", text))
         if lines or data or not module.routines:
             seen = module.name.lower() != _CONFIG  # its data are seen everywhere without the word
             public = module.public or any(
                 seen and getattr(declaration, "scope", "") in ("task", "global") for declaration in module.declarations
             )
-            text = (
-                templates(__package__)
-                .get_template("data.dat.j2")
-                .render(attributes=data, name=module.name, public=public, lines=lines)
-            )
+            text = self.say("data", attributes=data, name=module.name, public=public, lines=lines)
             found.append(_file(f"{module.name}.dat", text))
         return found
 
@@ -113,33 +113,37 @@ class _Module:
             return True
         return any(routine.name.lower() == self.module.name.lower() for routine in self.module.routines)
 
+    def printer(self, scope: Scope) -> Printer:
+        return Printer(scope, self.ledger, self.diagnostics, self.say)
+
     # ---- data list
 
     def data_lines(self) -> list[str]:
-        printer = Printer(self.scope, self.ledger, self.diagnostics)
+        printer = self.printer(self.scope)
         for declaration in self.module.declarations:
             self.declaration(declaration, printer, self.scope, in_data=True)
         return printer.lines
 
     def declaration(self, declaration: ir.Declaration, printer: Printer, scope: Scope, in_data: bool) -> None:
-        origin = declaration.origin
+        origin, say = declaration.origin, self.say
         try:
             match declaration:
                 case ir.Variable():
                     values = first_values(declaration, scope, in_data)
-                    printer.line(variable_line(declaration, scope, in_data), origin)
+                    printer.line(say("variable", **variable_words(declaration, scope, in_data)), origin)
                     for value in values if in_data else ():
-                        printer.line(assignment(value, printer.expressions))
+                        printer.line(say("assign", **assigned(value, printer.expressions)))
                 case ir.RecordDeclaration():
-                    printer.line(record_line(declaration, scope), origin)
-                case ir.EnumDeclaration():
-                    printer.line(enum_line(declaration), origin)
+                    printer.line(say("record", **record_words(declaration, scope)), origin)
+                case ir.EnumDeclaration(name=name, members=members):
+                    seen = everywhere(declaration.scope)
+                    printer.line(say("enumeration", everywhere=seen, name=name, members=members), origin)
                 case ir.SignalDeclaration():
-                    printer.line(signal_line(declaration, scope), origin)
+                    printer.line(say("signal", **signal_words(declaration, scope)), origin)
                 case ir.ExternalDeclaration(text=text):
                     printer.line(text, origin)
                 case ir.Initialise(assign=assign):
-                    printer.line(assignment(assign, printer.expressions), origin)
+                    printer.line(say("assign", **assigned(assign, printer.expressions)), origin)
                 case ir.Unread(text=""):
                     printer.comments_only(origin)
                 case ir.Unread(text=text):
@@ -154,28 +158,31 @@ class _Module:
     def lost(self, declaration: ir.Declaration, printer: Printer, reason: str) -> None:
         printer.comments_only(declaration.origin)
         name = getattr(declaration, "name", "this")
-        for part in (declaration.origin.text or str(name)).splitlines():
-            printer.lines.append(f";{part.strip()}")
+        printer.lines.extend(self.commented(declaration.origin.text or str(name)))
         self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=name, reason=reason)
         self.ledger.reported(declaration)
 
+    def commented(self, original: str) -> list[str]:
+        return [line for part in original.splitlines() for line in self.say.lines("remark", text=part.strip())]
+
     # ---- routines
 
-    def routine(self, routine: ir.Routine, first: bool) -> RoutineText:
+    def routine(self, routine: ir.Routine, first: bool) -> str:
         scope = self.scopes.routine(self.module, routine)
-        printer = Printer(scope, self.ledger, self.diagnostics)
-        before = Printer(scope, self.ledger, self.diagnostics)
+        printer, before = self.printer(scope), self.printer(scope)
         before.comments_only(routine.origin)
         foot = "END" if routine.returns is None else "ENDFCT"
         try:
-            head = header_line(routine, scope, first)
+            heading = self.say("heading", **heading_words(routine, scope, first))
             for parameter in routine.parameters:
-                printer.line(parameter_line(parameter, scope))
+                printer.line(self.say("parameter", **parameter_words(parameter, scope)))
         except CannotSayError as error:
             self.diagnostics.report(LOST_DECLARATION, routine.origin, name=routine.name, reason=str(error))
             self.ledger.reported(routine)
-            original = tuple(f";{line.strip()}" for line in routine.origin.text.splitlines())
-            return RoutineText(tuple(before.lines) + original, f"DEF {routine.name}( )", ("HALT",), "END")
+            lines = [*before.lines, *self.commented(routine.origin.text)]
+            heading = self.say("heading", everywhere=False, returns="", name=routine.name, parameters="")
+            stop = self.say.lines("stop")
+            return self.say("routine", before=lines, heading=heading, lines=stop, foot="END")
         self.ledger.written(routine)
         for declaration in routine.declarations:
             self.declaration(declaration, printer, scope, in_data=False)
@@ -183,7 +190,7 @@ class _Module:
         printer.depth = -1
         printer.body(routine.body)
         self.handlers(routine)
-        return RoutineText(tuple(before.lines), head, tuple(printer.lines), foot)
+        return self.say("routine", before=before.lines, heading=heading, lines=printer.lines, foot=foot)
 
     def initial_values(self, routine: ir.Routine, printer: Printer) -> None:
         """A routine's variables are declared bare; their first values are assignments."""
@@ -192,10 +199,10 @@ class _Module:
                 continue
             try:
                 for value in first_values(declaration, self.scope, in_data=False):
-                    printer.line(assignment(value, printer.expressions))
+                    printer.line(self.say("assign", **assigned(value, printer.expressions)))
             except CannotSayError as error:
                 self.diagnostics.report(LOST_DECLARATION, declaration.origin, name=declaration.name, reason=str(error))
-                printer.line("HALT")
+                printer.stop()
 
     def handlers(self, routine: ir.Routine) -> None:
         """What a KRL routine has no place for. The passes before carry over what they can."""

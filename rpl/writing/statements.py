@@ -17,6 +17,7 @@ from rpl.errors import RplError
 from rpl.source import Comment, Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.refusals import refusal
+from rpl.writing.templates import TemplateError
 
 LineT = TypeVar("LineT")
 
@@ -72,6 +73,8 @@ class StatementPrinter(ABC, Generic[LineT]):
             self.taken_back()
             self.guard(statement, str(error), error.code)
             self.without_actions(statement)
+        except TemplateError as error:
+            raise error.at(statement.origin) from None
         else:
             self.ledger.written(statement)
 
