@@ -218,6 +218,12 @@ def target(name: str) -> Target:
     return found
 
 
+def target_package(name: str) -> str:
+    """The package of a target, which its templates stand in. Raises UsageError when there is no such target."""
+    target(name)  # an unknown name is refused there
+    return _names(_TARGETS)[name]
+
+
 def target_called(word: str) -> Target:
     """The target that people ask for by this word, as `dialect_called`."""
     return target(_meant(_TARGETS, word))

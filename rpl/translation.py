@@ -11,6 +11,7 @@ from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, code
 from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.model import RobotModel, load_robot
+from rpl.housestyle import compare_house_style
 from rpl.ir.analog import AnalogSetting
 from rpl.passes.analog import analog_ranges
 from rpl.passes.given import with_given
@@ -72,6 +73,7 @@ def translate_program(
     given: Mapping[str, object] | None = None,
     mechanisms: tuple[Mechanism, ...] = (),
     analog: tuple[AnalogSetting, ...] = (),
+    templates: Mapping[str, str] | None = None,
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
@@ -81,6 +83,8 @@ def translate_program(
     values of data that the controller keeps and the program does not set, by name (the variables of a cell file); what
     is written for another controller sets them. `mechanisms`: those of the cell, beside those of the robot's file.
     `analog`: ranges of analogue signals (the cell's `[analog.LANGUAGE]`).
+    `templates`: a plant's own for the target, path -> text (rpl.writing.house); one that fails or that writes another
+    program is an error.
     What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
@@ -97,13 +101,17 @@ def translate_program(
         languages = (*(module.dialect for module in read.program.modules), target_name)
         context.analog = {one: analog_ranges(read.program, one, analog) for one in dict.fromkeys(languages)}
         whole = with_given(read.program, given) if given and source != target_name else read.program
-        return _translated(whole, context, second, own)
+        return _translated(whole, context, second, own, templates or {})
 
     return at_any_depth(translated, collector)
 
 
 def _translated(
-    whole: ir.Program, context: Context, robot: RobotModel | None, options: Mapping[str, str]
+    whole: ir.Program,
+    context: Context,
+    robot: RobotModel | None,
+    options: Mapping[str, str],
+    templates: Mapping[str, str],
 ) -> Translation:
     source, target_name, capabilities = context.source, context.target, context.capabilities
     collector, target = context.diagnostics, registry.target(context.target)
@@ -117,8 +125,11 @@ def _translated(
     else:
         program = legalise(whole, context)
     legalised = len(collector)
-    asked = WriteContext(collector, robot, options, context.register_names, context.foreign)
+    asked = WriteContext(collector, robot, options, context.register_names, context.foreign, templates)
     files = target.write(program, asked)
+    if templates:
+        shipped = target.write(program, replace(asked, diagnostics=Diagnostics(), templates={}))
+        compare_house_style(files, shipped, target_name, collector)
     collector.drop_repeated(before, legalised)
     files = _each_once(files, program, collector)
     if source != target_name and not capabilities.carries_rules:

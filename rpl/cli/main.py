@@ -20,7 +20,7 @@ from rpl.showing import printable
 OK, NO, USAGE, GUARDED = 0, 1, 2, 3
 _INTERRUPTED, _PIPE_CLOSED, _TERMINATED = 130, 141, 143
 # Commands that only list what there is: who has read enough of it may go away.
-_LISTINGS = ("dialects", "robots")
+_LISTINGS = ("dialects", "robots", "templates")
 _HELP = frozenset(("-h", "--help", "--version"))
 
 # Name -> what the list of commands says. Each lives in rpl.cli.<name> as `command`.
@@ -34,6 +34,7 @@ COMMANDS = {
     "prove": "Decide by running both whether two programs mean the same.",
     "fk": "Forward kinematics: joints to a pose in a dialect's notation.",
     "ik": "Inverse kinematics: a pose to all joint solutions.",
+    "templates": "List how statements are written, or copy it to be changed.",
     "repl": "Try RPL statements one by one on an emulated robot.",
 }
 

@@ -64,6 +64,12 @@ OK, NO, GUARDED = 0, 1, 3
 @click.option(
     "--option", "options", multiple=True, metavar="NAME=VALUE", help="An option of the target language; repeatable."
 )
+@click.option(
+    "--templates",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Own macros for how statements look, in DIR/<target>/*.j2 (`rpl templates` lists them).",
+)
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
 @exploring
 @accepting
@@ -78,6 +84,7 @@ def command(
     proving: bool,
     registers: Path | None,
     options: Sequence[str],
+    templates: Path | None,
     strict: bool,
     accepted: Accepted,
     kept: Path | None,
@@ -93,12 +100,14 @@ def command(
     from rpl.cell import read_cell
     from rpl.proof.cellnames import report_unknown_names
     from rpl.translation import translate_program
+    from rpl.writing.house import house_files
     from rpl.writing.registers import read_registers
 
     own, arms = _options(options), (about["robot"], about["to_robot"])
     target = _target(target, own)
     robots_exist(*arms)
     _certifiable(kept, paths, output)
+    house = house_files(templates, target, registry.target_names()) if templates is not None else None
     numbers = read_registers(registers) if registers is not None else None
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
@@ -108,8 +117,8 @@ def command(
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
-        given = (around.variables, around.mechanisms, around.analog) if around is not None else ()
-        translation = translate_program(read, target, *arms, diagnostics, numbers, own, *given)
+        given = (around.variables, around.mechanisms, around.analog) if around is not None else ({}, (), ())
+        translation = translate_program(read, target, *arms, diagnostics, numbers, own, *given, house)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
