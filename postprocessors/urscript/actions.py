@@ -12,6 +12,7 @@ from rpl.passes.legalise.rewriting.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
 from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
+from rpl.writing.templates import Macros
 
 from . import tables
 from .declarations import in_one_list
@@ -38,6 +39,7 @@ class Printing(Protocol):
 
     expressions: Expressions
     inside: bool
+    say: Macros
 
     @property
     def output(self) -> Sharing: ...
@@ -59,22 +61,23 @@ class Actions:
     """Writes to the printer of one routine."""
 
     def __init__(self, printer: Printing) -> None:
-        self.printer, self.expressions = printer, printer.expressions
+        self.printer, self.expressions, self.say = printer, printer.expressions, printer.say
 
     def write(self, statement: ir.Statement) -> None:
         printer, origin = self.printer, statement.origin
         match statement:
             case ir.Assign():
-                printer.line(self.assignment(statement), origin)
+                printer.line(self.say("assign", text=self.assignment(statement)), origin)
             case ir.CallRoutine():
-                printer.line(self.call(statement), origin)
+                printer.line(self.say("call", **self.call(statement)), origin)
             case ir.NextPass():
                 printer.comments_only(origin)
                 printer.onward("continue")
             case ir.WaitForMotion():
                 printer.comments_only(origin)  # moves without a blend radius end before the next line
                 if printer.output.standing.must_wait(statement):  # the last move of a loop, branch or call above
-                    printer.more("while not is_steady():", "  sync()", "end")
+                    printer.line(self.say("while_head", condition="not is_steady()"))
+                    printer.more("  sync()", self.say("word", text="end"))
             case ir.WaitUntil():
                 self.wait_until(statement)
             case ir.Pulse() | ir.SetAfter():
@@ -83,7 +86,7 @@ class Actions:
                 self.message(statement)
             case ir.Clock(op=op, clock=clock):
                 name, runs = self.watch(clock)
-                printer.line(f"{runs} = {op == 'start'}", origin)
+                printer.line(self.say("clock", runs=runs, on=op == "start"), origin)
                 if op == "reset":
                     printer.more(f"{name} = 0.0")
             case _:
@@ -98,32 +101,34 @@ class Actions:
         return name, runs
 
     def simple(self, statement: ir.Statement) -> str:
+        say = self.say
         match statement:
             case ir.ExitLoop():
-                return "break"
+                return say("word", text="break")
             case ir.Return(value=None):
-                return "return"
+                return say("word", text="return")
             case ir.Return(value=value) if value is not None:
                 routine = self.expressions.scope.routine_here
-                return f"return {self.expressions.given(value, routine.returns if routine else None)}"
+                given = self.expressions.given(value, routine.returns if routine else None)
+                return say("return_value", value=given)
             case ir.Halt(kind="stop" | "exit"):
-                return "halt"
+                return say("stop")
             case ir.Wait(time=ir.Quantity(ir.RealLiteral(value=seconds), "s")) if seconds == tables.STEP_S:
-                return "sync()"
+                return say("word", text="sync()")
             case ir.Wait(time=time):
-                return f"sleep({self.expressions.measured(time, 's')})"
+                return say("wait", time=self.expressions.measured(time, "s"))
             case ir.StopMotion(hard=hard):
-                return f"stopj({20.0 if hard else 2.0})"
+                return say("stop_motion", deceleration="20.0" if hard else "2.0")
             case ir.Do(procedure=procedure, arguments=arguments):
-                return self.procedure(procedure, arguments)
+                return say("do", text=self.procedure(procedure, arguments))
             case ir.Dialog():
                 return self.dialog(statement)
             case ir.Critical(enter=enter):
-                return "enter_critical" if enter else "exit_critical"
+                return say("word", text="enter_critical" if enter else "exit_critical")
             case ir.TaskControl(op="start", task=task, arguments=()):
-                return f"global {self.handle(task)} = run {task}()"
+                return say("start_task", handle=self.handle(task), task=task)
             case ir.TaskControl(op="stop" | "join" as op, task=task):
-                return f"{'kill' if op == 'stop' else 'join'} {self.handle(task)}"
+                return say("stop_task", word="kill" if op == "stop" else "join", handle=self.handle(task))
         raise CannotSayError(f"there is no {statement.__class__.__name__}")
 
     def handle(self, task: str) -> str:
@@ -204,10 +209,11 @@ class Actions:
             for at, (written, one) in enumerate(value.entries)
         }
 
-    def call(self, statement: ir.CallRoutine) -> str:
+    def call(self, statement: ir.CallRoutine) -> dict[str, str]:
         if statement.dynamic is not None:
             raise CannotSayError("there is no call by a computed name")
-        return f"{statement.name}({self.expressions.arguments(statement.name, statement.arguments)})"
+        given = self.expressions.arguments(statement.name, statement.arguments)
+        return {"name": statement.name, "arguments": given}
 
     def procedure(self, name: str, arguments: tuple[ir.Expression | None, ...]) -> str:
         given = [argument for argument in arguments if argument is not None]
@@ -236,8 +242,8 @@ class Actions:
         printer = self.printer
         waiting = self.expressions.text(opposite(wait.condition))
         if wait.timeout is None:
-            printer.line(f"while {waiting}:", wait.origin)
-            printer.more("  sync()", "end")
+            printer.line(self.say("while_head", condition=waiting), wait.origin)
+            printer.more("  sync()", self.say("word", text="end"))
             return
         if wait.timed_out is None:
             raise CannotSayError("a wait whose time limit raises an error")
@@ -262,7 +268,8 @@ class Actions:
             if symbol is not None and symbol.routine is not None and printer.inside:
                 raise CannotSayError("an output that changes later by a variable of the routine")
         if isinstance(statement, ir.Pulse):
-            printer.line(self.assignment(ir.Assign(statement.signal, statement.value)), statement.origin)
+            change = self.assignment(ir.Assign(statement.signal, statement.value))
+            printer.line(self.say("assign", text=change), statement.origin)
             back, delay = _negated(statement.value), statement.duration
         else:
             printer.comments_only(statement.origin)
@@ -274,9 +281,9 @@ class Actions:
         if isinstance(statement, ir.Pulse) and any(isinstance(node, ir.Call) for node in all_expressions(statement)):
             raise CannotSayError("a pulse by a function, which would be called twice")
         name = printer.output.fresh("output_later")
-        change, delay, begun = self.as_begun(ir.Assign(statement.signal, back), delay)
+        later, delay, begun = self.as_begun(ir.Assign(statement.signal, back), delay)
         try:
-            lines = (f"  sleep({self.expressions.measured(delay, 's')})", f"  {self.assignment(change)}")
+            lines = (f"  sleep({self.expressions.measured(delay, 's')})", f"  {self.assignment(later)}")
         finally:
             self.expressions.scope = scope
         printer.output.threads.append((f"thread {name}():", *begun, *lines, "end"))
@@ -328,13 +335,12 @@ class Actions:
         option = _MESSAGES[message.kind]
         if option or (message.kind == "notify" and message.sender is not None):  # a log has no place for the sender
             title = self.expressions.text(message.sender) if message.sender is not None else ""
-            heading = f"title={title}" if title else ""
-            shown = (self.expressions.text(text), heading, option)
-            printer.line(f"popup({', '.join(one for one in shown if one)})", message.origin)
+            shown = self.say("popup", text=self.expressions.text(text), title=title, option=option)
+            printer.line(shown, message.origin)
             return
         if message.sender is not None:
             text = ir.Binary("&", ir.Binary("&", message.sender, ir.TextLiteral(": ")), text)
-        printer.line(f"textmsg({self.told(text)})", message.origin)
+        printer.line(self.say("log", text=self.told(text)), message.origin)
 
     def told(self, text: ir.Expression) -> str:
         """One or two pieces of a message; the controller shows numbers by itself."""
@@ -362,8 +368,8 @@ class Actions:
                 if isinstance(key, ir.TextLiteral):
                     label = ir.TextLiteral(f" {number}: {key.value}")
                 question = _joined(question, label)
-        asked = f"request_{kind}_from_primary_client({self.expressions.text(question)})"
-        return f"{self.expressions.text(dialog.answer)} = {asked}"
+        shown = self.expressions.text(question)
+        return self.say("ask", answer=self.expressions.text(dialog.answer), kind=kind, question=shown)
 
 
 def _joined(one: ir.Expression, other: ir.Expression) -> ir.Expression:

@@ -49,12 +49,6 @@ def _gathered(declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration,
     )
 
 
-def variable_line(variable: ir.Variable, expressions: Expressions, word: str) -> str:
-    """`word name = value`; word is `global`, `local` or empty."""
-    value = first_value(variable, expressions)
-    return f"{word}{' ' if word else ''}{variable.name} = {value}"
-
-
 def first_value(variable: ir.Variable, expressions: Expressions) -> str:
     """The value given, spelled so that it has the type declared, or that type's neutral value."""
     scope = expressions.scope
@@ -141,14 +135,14 @@ def _empty_array(type: ir.ArrayType, scope: Scope, expressions: Expressions, dep
     return f"[{', '.join([inner] * math.prod(counts))}]"
 
 
-def header(routine: ir.Routine) -> str:
-    """`def name(a, b):`"""
+def header(routine: ir.Routine) -> dict[str, str]:
+    """The words of `def name(a, b):`."""
     for parameter in routine.parameters:
         if parameter.optional or parameter.switch:
             raise CannotSayError("there are no optional parameters")
         if parameter.mode == "reference" and _assigned(parameter.name, routine):
             raise CannotSayError(f"the parameter {parameter.name} gives a value back, and arguments are copies")
-    return f"def {routine.name}({', '.join(parameter.name for parameter in routine.parameters)}):"
+    return {"name": routine.name, "parameters": ", ".join(parameter.name for parameter in routine.parameters)}
 
 
 def _assigned(name: str, routine: ir.Routine) -> bool:

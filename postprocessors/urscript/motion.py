@@ -31,6 +31,8 @@ NO_ARM = code(
 _WORDS = {"joint": "movej", "linear": "movel", "circular": "movec"}
 _ACCELERATION = {"joint": "axis_acceleration", "linear": "path_acceleration", "circular": "path_acceleration"}
 
+Words = dict[str, object]  # of a macro
+
 
 class Motion:
     """Prints moves inside of one scope."""
@@ -38,8 +40,8 @@ class Motion:
     def __init__(self, expressions: Expressions, diagnostics: Diagnostics, robot: RobotModel | None) -> None:
         self.expressions, self.diagnostics, self.robot = expressions, diagnostics, robot
 
-    def move(self, move: ir.Move, blended: bool = True) -> str:
-        """The call. `blended` False: what follows wants the robot to stand."""
+    def move(self, move: ir.Move, blended: bool = True) -> Words:
+        """The words of the call. `blended` False: what follows wants the robot to stand."""
         if move.motion_class == "velocity":
             return self.rates(move)
         self.refuse(move)
@@ -56,9 +58,9 @@ class Motion:
         settings = [*self.speed(move), *(self.blend(move.blend) if blended else ())]
         if move.kind == "circular" and move.circle_orientation == "path":
             settings.append("mode=1")
-        return f"{word}({', '.join((*places, *settings))})"
+        return {"word": word, "places": places, "settings": settings}
 
-    def rates(self, move: ir.Move) -> str:
+    def rates(self, move: ir.Move) -> Words:
         """`speedl` and `speedj`: the way in a second."""
         self.refuse(replace(move, relative=None))
         joints, speed = move.relative == "joints", move.speed or ir.Speed()
@@ -70,7 +72,8 @@ class Motion:
         settings = [f"a={usual if given is None else self.number(given, 'rad/s2' if joints else 'm/s2')}"]
         if speed.duration is not None:
             settings.append(f"t={self.number(speed.duration, 's')}")
-        return f"{'speedj' if joints else 'speedl'}([{', '.join(found)}], {', '.join(settings)})"
+        places = [f"[{', '.join(found)}]"]
+        return {"word": "speedj" if joints else "speedl", "places": places, "settings": settings}
 
     def rate(self, part: ir.Expression) -> str:
         return "0" if part == ir.RealLiteral(0.0) else self.expressions.text(part)

@@ -13,6 +13,7 @@ from rpl.passes.scope import Scope
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError, StatementPrinter
+from rpl.writing.templates import Macros
 
 from . import spelling
 from .actions import Actions
@@ -54,6 +55,7 @@ class Output:
     robot: RobotModel | None
     taken: set[str]
     standing: Standing
+    say: Macros
     notes: Notes = field(default_factory=Notes)
     threads: list[tuple[str, ...]] = field(default_factory=list)
     watches: dict[str, str] = field(default_factory=dict)  # stop watch -> the variable that says whether it runs
@@ -87,6 +89,7 @@ class Printer(StatementPrinter[str]):
     def __init__(self, scope: Scope, output: Output, inside: bool = True, depth: int = 0) -> None:
         super().__init__(output.ledger, output.diagnostics)
         self.scope, self.output, self.inside, self.depth = scope, output, inside, depth
+        self.say = output.say
         self.stopped = False  # does the statement follow one that brakes the robot?
         self.rest: ir.Body = ()  # what follows in the same body
         self.before_next: list[tuple[str, ...]] = []
@@ -97,14 +100,19 @@ class Printer(StatementPrinter[str]):
     # ---- lines and comments
 
     def line(self, text: str, origin: Origin | None = None) -> None:
-        """One line, with the comments that belong to its statement."""
+        """The line or lines of a statement, with its comments before them and behind the first."""
         behind = ""
         for comment in origin.comments if origin else ():
             if comment.behind:
-                behind = f"  # {_one_line(comment.text)}"
+                behind = self.say("behind", text=_one_line(comment.text))
             else:
                 self.comment(comment)
-        self.lines.append(f"{INDENT * self.depth}{text}{behind}")
+        for part in text.splitlines() or [""]:
+            self.lines.append(f"{INDENT * self.depth}{part}{behind}")
+            behind = ""
+
+    def word(self, text: str) -> None:
+        self.line(self.say("word", text=text))
 
     def more(self, *texts: str) -> None:
         """Lines of a statement that is written as several."""
@@ -112,11 +120,11 @@ class Printer(StatementPrinter[str]):
 
     def remark(self, text: str) -> None:
         for part in text.splitlines() or [""]:
-            plain = spelling.ascii_text(part.strip())
-            self.lines.append(f"{INDENT * self.depth}# {plain}".rstrip())
+            for line in self.say.lines("remark", text=spelling.ascii_text(part.strip())):
+                self.lines.append(f"{INDENT * self.depth}{line}".rstrip())
 
     def stop(self) -> None:
-        self.more("halt")
+        self.line(self.say("stop"))
 
     def temporary(self, stem: str, value: str) -> str:
         """A new variable with its first value."""
@@ -159,7 +167,8 @@ class Printer(StatementPrinter[str]):
             case ir.ClearMotion() | ir.StartMotion() if self.stopped:
                 self.comments_only(statement.origin)  # stopj forgets the rest of the path by itself
             case ir.Move(origin=origin):
-                self.line(self.motion.move(statement, not self.output.standing.wanted(self.rest)), origin)
+                words = self.motion.move(statement, not self.output.standing.wanted(self.rest))
+                self.line(self.say("move", **words), origin)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
                 self.block(statement)
             case _:
@@ -186,21 +195,19 @@ class Printer(StatementPrinter[str]):
 
     def branches(self, branches: list[tuple[str, ir.Body]], otherwise: ir.Body, origin: Origin) -> None:
         for number, (condition, body) in enumerate(branches):
-            if number:
-                self.line(f"elif {condition}:")
-            else:
-                self.line(f"if {condition}:", origin)
+            head = self.say("branch_head", word="elif" if number else "if", condition=condition)
+            self.line(head, None if number else origin)
             self.body(body)
         if otherwise:
-            self.line("else:")
+            self.word("else:")
             self.body(otherwise)
-        self.line("end")
+        self.word("end")
 
     def loop(
         self, condition: str, statement: ir.While | ir.Repeat | ir.Loop, body: ir.Body, behind: tuple[str, ...]
     ) -> None:
         """`behind`: what is done after each pass, also one that was cut short."""
-        self.line(f"while {condition}:", statement.origin)
+        self.line(self.say("while_head", condition=condition), statement.origin)
         self.before_next.append(behind)
         self.body(body)
         self.before_next.pop()
@@ -209,7 +216,7 @@ class Printer(StatementPrinter[str]):
             self.more("sync()")
         self.more(*behind)
         self.depth -= 1
-        self.more("end")
+        self.word("end")
 
     def switch(self, statement: ir.Switch) -> None:
         """The first branch whose value matches; the selector is looked at once."""
@@ -247,11 +254,12 @@ class Printer(StatementPrinter[str]):
         else:
             condition = text(ir.Binary("<=" if step > 0 else ">=", counter, stop))
         onward = f"{loop.counter} = {text(_added(counter, stride))}"
-        self.more(f"while {condition}:")
+        self.line(self.say("while_head", condition=condition))
         self.before_next.append((onward,))
         self.body(loop.body)
         self.before_next.pop()
-        self.more(f"{INDENT}{onward}", "end")
+        self.more(f"{INDENT}{onward}")
+        self.word("end")
 
     def fixed(self, value: ir.Expression, stem: str) -> ir.Expression:
         """A bound that is looked at once."""

@@ -9,9 +9,9 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
-from rpl.writing.templates import templates
+from rpl.writing.templates import macros_of
 
-from .declarations import gathered, header, variable_line
+from .declarations import first_value, gathered, header
 from .helpers import HELPERS, with_needed
 from .levels import output_levels
 from .namespace import called_names, names_of, not_reached, one_namespace, programs
@@ -57,7 +57,8 @@ class _Script:
         self.scopes = ProgramScope(self.program)
         self.diagnostics = context.diagnostics
         taken = names_of(self.program) | set(HELPERS)
-        self.output = Output(self.ledger, context.diagnostics, context.robot, taken, Standing(self.program))
+        self.say, standing = macros_of(__package__, context.templates), Standing(self.program)
+        self.output = Output(self.ledger, context.diagnostics, context.robot, taken, standing, self.say)
         called = called_names(self.program)
         self.is_body = self.start is not None and self.start.name.lower() not in called
         self.tasks = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
@@ -91,12 +92,7 @@ class _Script:
         threads = [_indented(lines) for lines in self.output.threads]
         helpers = [_indented(HELPERS[one]) for one in with_needed(frozenset(self.output.notes.helpers))]
         parts = [part for part in (data, *helpers, *routines, *threads, body) if part]
-        text = (
-            templates(__package__)
-            .get_template("program.script.j2")
-            .render(before=remarks.lines, name=name, parts=parts)
-            + "\n"
-        )
+        text = self.say("script", before=remarks.lines, name=name, parts=parts) + "\n"
         self.ledger.check(self.program)
         return OutputFile(f"{name}.script", text.encode("ascii", "replace"))
 
@@ -131,13 +127,14 @@ class _Script:
                 case ir.Variable(type=ir.VendorType(dialect="urscript"), initial=None):
                     printer.comments_only(origin)  # a handle is what the call gives that makes it
                 case ir.Variable():
-                    printer.line(variable_line(declaration, printer.expressions, word), origin)
+                    value = first_value(declaration, printer.expressions)
+                    printer.line(self.say("variable", where=word, name=declaration.name, value=value), origin)
                 case ir.RecordDeclaration() | ir.ExternalDeclaration() | ir.Unread(text=""):
                     printer.comments_only(origin)  # a structure is what its values show
                 case ir.SignalDeclaration(name=name, signal=signal):
-                    printer.line(f"# {name} is {printer.expressions.text(signal)}", origin)
+                    printer.line(self.say("signal", name=name, signal=printer.expressions.text(signal)), origin)
                 case ir.Initialise(assign=assign):
-                    printer.line(printer.actions.assignment(assign), origin)
+                    printer.line(self.say("assign", text=printer.actions.assignment(assign)), origin)
                 case ir.Unread(text=text):
                     raise CannotSayError(f"it was not read ({text.strip()[:40]})")
                 case _:
@@ -171,23 +168,28 @@ class _Script:
             self.diagnostics.report(LOST_DECLARATION, routine.origin, name=routine.name, reason=str(error))
             self.ledger.reported(routine)
             names = ", ".join(parameter.name for parameter in routine.parameters)
-            printer.more(f"def {routine.name}({names}):", f"{INDENT}# {error}", f"{INDENT}halt", "end")
+            printer.line(self.say("heading", kind="def", name=routine.name, parameters=names))
+            printer.depth += 1
+            printer.more(*self.say.lines("remark", text=str(error)))
+            printer.stop()
+            printer.depth -= 1
+            printer.word("end")
             return printer.lines
         self.ledger.written(routine)
-        printer.more(head.replace("def ", "thread ", 1) if thread else head)
+        printer.line(self.say("heading", kind="thread" if thread else "def", **head))
         again = task is not None and task.cyclic
         printer.depth += 1
         self.own_data(routine, printer, "local", scope)
         if again:
-            printer.more("while True:")
+            printer.line(self.say("while_head", condition="True"))
             printer.depth += 1
         printer.depth -= 1
         printer.body(routine.body)
         printer.depth = 2
         if again:
-            printer.more(f"{INDENT}sync()", "end")
+            printer.more(f"{INDENT}sync()", self.say("word", text="end"))
         printer.depth = 1
-        printer.more("end")
+        printer.word("end")
         self.handlers(routine)
         return printer.lines
 

@@ -117,8 +117,18 @@ def command(
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
-        given = (around.variables, around.mechanisms, around.analog) if around is not None else ({}, (), ())
-        translation = translate_program(read, target, *arms, diagnostics, numbers, own, *given, house)
+        translation = translate_program(
+            read,
+            target,
+            *arms,
+            diagnostics,
+            numbers,
+            own,
+            given=around.variables if around is not None else None,
+            mechanisms=around.mechanisms if around is not None else (),
+            analog=around.analog if around is not None else (),
+            templates=house,
+        )
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
