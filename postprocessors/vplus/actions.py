@@ -66,7 +66,9 @@ class Actions:
                 if len(printer.output.reactions.watches) > watched:
                     printer.diagnostics.report(WATCHED, origin)
             case ir.CallRoutine():
-                printer.line(self.call(statement), origin)
+                text = self.call(statement)
+                word, _, what = text.partition(" ")
+                printer.line(text, origin, printer.output.say("call", word=word, what=what))
                 printer.motion.forget()
             case ir.Message():
                 self.message(statement)

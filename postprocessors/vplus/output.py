@@ -13,6 +13,7 @@ from rpl.diagnostics import Diagnostics
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
+from rpl.writing.templates import Macros
 
 from . import tables
 from .expressions import Expressions
@@ -29,6 +30,7 @@ class Output:
     facts: MotionFacts
     reactions: Reactions
     taken: set[str]
+    say: Macros
     tasks: dict[str, int] = field(default_factory=dict)
     helpers: set[str] = field(default_factory=set)
     delayed: dict[tuple[str, str], str] = field(default_factory=dict)
@@ -71,8 +73,8 @@ class BodyPrinter(Protocol):
         """What happens on the path."""
         ...
 
-    def line(self, text: str, origin: Origin | None = None) -> None:
-        """One step, with the comments that belong to its statement."""
+    def line(self, text: str, origin: Origin | None = None, shown: str = "") -> None:
+        """One step (`shown`: as a macro of its own says it), with the comments that belong to its statement."""
         ...
 
     def comments_only(self, origin: Origin) -> None:

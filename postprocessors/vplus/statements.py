@@ -36,7 +36,6 @@ UNPADDED = code(
     "V+ fills numbers with blanks on the left only, and texts not at all: {form} comes out without its own filling",
 )
 TEXT_CHANGED = code("vplus-text", Severity.WARNING, "a text is written in plain ASCII: {text}")
-STEP, FIRST = "    ", "        "
 _ASSIGNED_NUMBER = re.compile(r"[a-z][\w.]*(\[[^\]=]*\])? = ", re.IGNORECASE)
 _ROOM = tables.LONGEST_LINE - 12  # of a condition between its words
 
@@ -49,6 +48,8 @@ class Printer(StatementPrinter[str]):
     def __init__(self, scope: Scope, output: Output, labels: dict[str, str] | None = None) -> None:
         super().__init__(output.ledger, output.diagnostics)
         self.scope, self.output = scope, output
+        self.say = output.say
+        self.first, self.step = output.say("first"), output.say("step_in")
         self.labels = labels or {}
         self.notes = Notes(taken=output.taken, helpers=output.helpers, tasks=output.tasks)
         self.expressions = Expressions(scope, self.notes)
@@ -62,24 +63,27 @@ class Printer(StatementPrinter[str]):
 
     # ---- lines and comments
 
-    def line(self, text: str, origin: Origin | None = None) -> None:
-        """One step, behind those that its values need, with the comments that belong to its statement."""
+    def line(self, text: str, origin: Origin | None = None, shown: str = "") -> None:
+        """One step, behind those that its values need, with the comments that belong to its statement. `shown`: as a
+        macro of its own says it."""
         behind = ""
         for comment in origin.comments if origin else ():
             if comment.behind:
-                behind = f" ;{_one_line(comment.text)}"
+                behind = self.say("behind", text=_one_line(comment.text))
             else:
                 self.comment(comment)
         self.owed = self.owed and text != "BREAK"
         before, self.notes.before = self.notes.before, []
-        for one in (*before, text):
-            whole = self.fitted(one)
-            if one is text and behind:
-                if len(whole) + len(behind) > tables.LONGEST_LINE:
-                    self.remark(behind.removeprefix(" ;"))
-                else:
-                    whole += behind
+        for one in before:
+            self.lines.extend(map(self.fitted, self.say.lines("step", text=one)))
+        for part in shown.splitlines() if shown else self.say.lines("step", text=text):
+            whole = self.fitted(part)
+            if behind and len(whole) + len(behind) > tables.LONGEST_LINE:
+                self.remark(behind.removeprefix(" ;"))
+            else:
+                whole += behind
             self.lines.append(whole)
+            behind = ""
         if not _ASSIGNED_NUMBER.match(text):
             self.notes.parts.clear()
 
@@ -87,7 +91,7 @@ class Printer(StatementPrinter[str]):
         """The step, indented as far as the line is long enough."""
         if len(text) > tables.LONGEST_LINE:
             raise CannotSayError(f"a line of {len(text)} characters; at most {tables.LONGEST_LINE} are read")
-        indent = FIRST + STEP * self.depth
+        indent = self.first + self.step * self.depth
         return indent[: tables.LONGEST_LINE - len(text)] + text
 
     def more(self, *texts: str) -> None:
@@ -95,11 +99,12 @@ class Printer(StatementPrinter[str]):
             self.line(text)
 
     def remark(self, text: str) -> None:
-        indent = (FIRST + STEP * self.depth)[: tables.LONGEST_LINE // 2]
+        indent = (self.first + self.step * self.depth)[: tables.LONGEST_LINE // 2]
         for part in text.splitlines() or [""]:
             plain = spelling.ascii_text(part.rstrip())
             room = tables.LONGEST_LINE - len(indent) - 1
-            self.lines.extend(f"{indent};{one}".rstrip() for one in wrapped(plain, room))
+            for one in wrapped(plain, room):
+                self.lines.extend(f"{indent}{line}".rstrip() for line in self.say.lines("remark", text=one))
 
     def stop(self) -> None:
         self.line("PAUSE")
@@ -217,9 +222,9 @@ class Printer(StatementPrinter[str]):
                 self.motion.forget()
                 self.notes.parts.clear()
                 self.comments_only(statement.origin)
-                self.lines.append(f" {self.labels.get(name.lower(), name)}")
+                self.lines.extend(self.say.lines("label", name=self.labels.get(name.lower(), name)))
             case ir.Goto(label=label):
-                self.line(f"GOTO {self.labels.get(label.lower(), label)}", statement.origin)
+                self.put("goto", statement.origin, name=self.labels.get(label.lower(), label))
             case ir.Move():
                 self.move(statement)
             case ir.If() | ir.Switch() | ir.For() | ir.While() | ir.Repeat() | ir.Loop():
@@ -228,6 +233,11 @@ class Printer(StatementPrinter[str]):
                 self.motion_unknown(statement)
             case _:
                 self.actions.write(statement)
+
+    def put(self, macro: str, origin: Origin | None = None, **words: str) -> None:
+        """A step that has a macro of its own."""
+        text = self.say(macro, **words)
+        self.line(text, origin, text)
 
     def motion_unknown(self, block: ir.Statement) -> None:
         """A block that moves leaves the arm in a posture that depends on the run."""
@@ -248,7 +258,8 @@ class Printer(StatementPrinter[str]):
         inner, self.notes.before = self.notes.before, []
         self.comments_only_before(move.origin)
         self.more(*inner, *before, *around.before)
-        self.line(step, _behind_only(move.origin))
+        word, _, places = step.partition(" ")
+        self.line(step, _behind_only(move.origin), self.say("move", word=word, places=places))
         if move.concurrent and not around.last and self.output.facts.foreign:
             self.more(*around.behind)
             self.owed = bool(behind)
@@ -262,7 +273,7 @@ class Printer(StatementPrinter[str]):
 
     def stands(self) -> bool:
         """Does the robot stand for certain when the last line has been executed?"""
-        return bool(self.lines) and self.lines[-1].strip() == "BREAK"
+        return bool(self.lines) and self.lines[-1].strip().upper() == "BREAK"
 
     # ---- blocks
 
@@ -285,16 +296,16 @@ class Printer(StatementPrinter[str]):
             case ir.For():
                 self.counting(statement)
             case ir.While(condition=condition, body=body):
-                self.line(f"WHILE {self.condition(condition, True)} DO", origin)
+                self.put("while_head", origin, condition=self.condition(condition, True))
                 self.body(body)
                 self.line("END")
             case ir.Repeat(until=until, body=body):
-                ending = f"UNTIL {self.condition(until, True)}"
+                ending = self.condition(until, True)
                 self.line("DO", origin)
                 self.body(body)
-                self.line(ending)
+                self.put("until", condition=ending)
             case ir.Loop(body=body):
-                self.line("WHILE TRUE DO", origin)
+                self.put("while_head", origin, condition="TRUE")
                 self.body(body)
                 self.line("END")
 
@@ -306,10 +317,10 @@ class Printer(StatementPrinter[str]):
         shown = self.condition(condition)
         match body:
             case (ir.Goto(label=label, origin=at) as jump,) if not rest and not otherwise and not at.comments:
-                self.line(f"IF {shown} GOTO {self.labels.get(label.lower(), label)}", origin)
+                self.put("if_goto", origin, condition=shown, name=self.labels.get(label.lower(), label))
                 self.ledger.written(jump)
                 return
-        self.line(f"IF {shown} THEN", origin)
+        self.put("if_head", origin, condition=shown)
         self.body(body)
         if rest or otherwise:
             self.line("ELSE")
@@ -324,10 +335,11 @@ class Printer(StatementPrinter[str]):
     def switch(self, statement: ir.Switch) -> None:
         if not statement.cases:
             raise CannotSayError("a choice without a case")
-        self.line(f"CASE {self.expressions.shortened(statement.selector, _ROOM)} OF", statement.origin)
+        self.put("case_head", statement.origin, selector=self.expressions.shortened(statement.selector, _ROOM))
         self.depth += 1
         for case in statement.cases:
-            self.line(f"VALUE {', '.join(self.expressions.text(value) for value in case.values)}:", case.origin)
+            values = ", ".join(self.expressions.text(value) for value in case.values)
+            self.put("value", case.origin, values=values)
             self.body(case.body)
         if statement.default is not None:
             self.line("ANY")
@@ -339,9 +351,9 @@ class Printer(StatementPrinter[str]):
         if loop.scoped or loop.automatic or loop.at_least_once or loop.keeps_last:
             raise CannotSayError("a loop whose counter or first pass follows another language's rule")
         text = self.expressions.text
-        step = f" STEP {text(loop.step)}" if loop.step is not None else ""
-        counter = text(ir.Name(loop.counter))
-        self.line(f"FOR {counter} = {text(loop.start)} TO {text(loop.stop)}{step}", loop.origin)
+        step = text(loop.step) if loop.step is not None else ""
+        counter, start, stop = text(ir.Name(loop.counter)), text(loop.start), text(loop.stop)
+        self.put("for_head", loop.origin, counter=counter, start=start, stop=stop, step=step)
         self.body(loop.body)
         self.line("END")
 

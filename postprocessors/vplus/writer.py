@@ -16,7 +16,7 @@ from rpl.passes.typing import type_of
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
-from rpl.writing.templates import templates
+from rpl.writing.templates import macros_of
 
 from . import spelling, tables
 from .corners import Corners
@@ -26,7 +26,7 @@ from .motion import MotionFacts
 from .namespace import names_of, one_namespace, starts
 from .output import Output
 from .reactions import Reactions
-from .statements import FIRST, Printer
+from .statements import Printer
 
 LOST_DECLARATION = code(
     "vplus-lost-declaration", Severity.LOSS, "V+ cannot declare {name}: {reason}", "it is left as a comment"
@@ -48,14 +48,6 @@ class ProgramText:
     lines: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Section:
-    """What the template needs of one data section."""
-
-    word: str
-    lines: tuple[str, ...]
-
-
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """The file of a program. Raises InternalError when the ledger finds a node that nobody accounted for."""
     return [_File(program, context).file()]
@@ -72,7 +64,13 @@ class _File:
         if context.foreign:
             facts.usual = self.usual()
         self.output = Output(
-            self.ledger, context.diagnostics, facts, Reactions(self.program), names_of(self.program), self.tasks()
+            self.ledger,
+            context.diagnostics,
+            facts,
+            Reactions(self.program),
+            names_of(self.program),
+            macros_of(__package__, context.templates),
+            self.tasks(),
         )
         self.output.reactions.task_of = self.output.helper_task
         self.background = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
@@ -89,27 +87,25 @@ class _File:
                 self.data(declaration, self.scopes.module(module), remarks)
         programs = [self.routine(module, routine) for module in self.program.modules for routine in module.routines]
         programs.sort(key=lambda one: not one[1])
+        indent = self.output.say("first")
         programs += [
-            (ProgramText(HELPERS[name][0], tuple(FIRST + step for step in HELPERS[name][1])), False)
+            (ProgramText(HELPERS[name][0], tuple(indent + step for step in HELPERS[name][1])), False)
             for name in with_needed(self.output.helpers)
         ]
         programs += [
-            (ProgramText(f".PROGRAM {name}()", (f"{FIRST}WAIT.EVENT , {seconds}", f"{FIRST}SIGNAL {number}")), False)
+            (ProgramText(f".PROGRAM {name}()", (f"{indent}WAIT.EVENT , {seconds}", f"{indent}SIGNAL {number}")), False)
             for (number, seconds), name in self.output.delayed.items()
         ]
         programs += [
-            (ProgramText(f".PROGRAM {watch.name}()", tuple(FIRST + step for step in watch.steps())), False)
+            (ProgramText(f".PROGRAM {watch.name}()", tuple(indent + step for step in watch.steps())), False)
             for watch in self.output.reactions.watches.values()
         ]
-        sections = [Section(word, tuple(self.sections[word])) for word in _ORDER if word in self.sections]
-        text = (
-            templates(__package__)
-            .get_template("program.v2.j2")
-            .render(
-                before=[line.strip() for line in remarks.lines],
-                programs=[one for one, _ in programs],
-                sections=sections,
-            )
+        say = self.output.say
+        text = say(
+            "file",
+            before=[line.strip() for line in remarks.lines],
+            programs=[say("program", heading=one.head, lines=one.lines) for one, _ in programs],
+            sections=[(word, self.sections[word]) for word in _ORDER if word in self.sections],
         )
         self.ledger.check(self.program)
         text = "\r\n".join(line.rstrip() for line in text.splitlines()) + "\r\n"
@@ -217,7 +213,7 @@ class _File:
         task = self.background.get(routine.name.lower())
         again = task is not None and task.cyclic
         if again:
-            printer.more("WHILE TRUE DO")
+            printer.put("while_head", condition="TRUE")
         printer.body(routine.body, again)
         if again:
             printer.depth += 1
@@ -225,7 +221,12 @@ class _File:
             printer.depth -= 1
             printer.line("END")
         self.handlers(routine)
-        lines = [*remarks.lines, *_declarations(initial, printer.notes.autos), *values_first, *printer.lines]
+        lines = [
+            *remarks.lines,
+            *_declarations(initial, printer.notes.autos, printer.first),
+            *values_first,
+            *printer.lines,
+        ]
         return ProgramText(_head(routine), tuple(lines)), first
 
     def own_data(self, routine: ir.Routine, printer: Printer) -> list[tuple[str, str]]:
@@ -259,7 +260,7 @@ class _File:
         """The first value of a variable that keeps its value between calls."""
         places = values(variable)
         asked = printer.expressions.text(places[0][0])
-        printer.line(f"IF NOT DEFINED({asked}) THEN")
+        printer.put("if_head", condition=f"NOT DEFINED({asked})")
         printer.depth += 1
         for place, _, value in places:
             printer.line(printer.actions.stored(place, value))
@@ -326,7 +327,7 @@ def _labels(routine: ir.Routine) -> dict[str, str]:
     return {name: str(number * 10) for number, name in enumerate(dict.fromkeys(names), 1)}
 
 
-def _declarations(found: list[tuple[str, str]], autos: list[str]) -> list[str]:
+def _declarations(found: list[tuple[str, str]], autos: list[str], indent: str) -> list[str]:
     """AUTO and LOCAL lines, as many names in each as fit."""
     lines = []
     for word, names in (
@@ -338,7 +339,7 @@ def _declarations(found: list[tuple[str, str]], autos: list[str]) -> list[str]:
             if line and len(line) + len(name) + 2 > tables.LONGEST_LINE:
                 lines.append(line)
                 line = ""
-            line = f"{line}, {name}" if line else f"{FIRST}{word} {name}"
+            line = f"{line}, {name}" if line else f"{indent}{word} {name}"
         if line:
             lines.append(line)
     return lines
