@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import Origin
@@ -18,10 +19,12 @@ _SAME_S = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """The text behind the number (`  R[1]=5`, `J P[1] 100% FINE`), and the lines that continue it."""
+    """The text behind the number (`  R[1]=5`, `J P[1] 100% FINE`), and the lines that continue it. `words`: those of
+    the macro of a move."""
 
     first: str
     further: tuple[str, ...] = ()
+    words: Mapping[str, str] | None = field(default=None, compare=False)
 
     @property
     def length(self) -> int:

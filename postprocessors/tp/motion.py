@@ -161,10 +161,7 @@ class Motion:
         self.last, self.stands = goal, term == "FINE"
         self.rounded_last = not self.stands
         self.place = target if not offsets and move.relative is None else ""
-        settings = f"{speed} {term}{options}    "
-        if move.kind != "circular":
-            return Line(f"{letter} {target} {settings}")
-        return Line(f"{letter} {via}{via_offsets}    ", (f"  {target} {settings}",))
+        return move_line(letter, f"{via}{via_offsets}", target, speed, term, options)
 
     def via(self, move: ir.Move) -> tuple[str, str]:
         if move.kind != "circular":
@@ -195,7 +192,7 @@ class Motion:
         """A way of no length that ends with FINE: the lines behind it come when the robot stands."""
         point = self.points.place(self.points.add(Position("pose", (0.0,) * 6)))
         self.stands = True
-        return Line(f"L {point} 100mm/sec FINE INC    ")
+        return move_line("L", "", point, "100mm/sec", "FINE", " INC")
 
     def reached(self, move: ir.Move, shown: str, offsets: str) -> Position | None:
         """The constant position that a move ends at; None when it is computed."""
@@ -462,7 +459,8 @@ class Motion:
         for trigger, pulse in triggers:
             if isinstance(trigger, ir.Trigger):
                 shown += f" {self.trigger(replace(trigger, reference='end', distance=None), pulse)}"
-        self.before.append(Line(f"{self.standstill().first.rstrip()}{shown}    "))
+        words = dict(self.standstill().words or {})
+        self.before.append(move_line(**words | {"options": f"{words['options']}{shown}"}))
 
     def deed(self, trigger: ir.Trigger, pulse: float | None) -> str:
         """What an action on the path does."""
@@ -585,3 +583,12 @@ def _same_place(one: ir.Trigger, other: ir.Trigger) -> bool:
     """Do two actions count from one place of the path, apart from their times?"""
     places = [measured(each.distance, "mm") if each.distance is not None else 0 for each in (one, other)]
     return one.reference == other.reference and None not in places and places[0] == places[1]
+
+
+def move_line(letter: str, via: str, target: str, speed: str, term: str, options: str) -> Line:
+    """The line of a move, and the words of its macro."""
+    words = {"letter": letter, "via": via, "target": target, "speed": speed, "term": term, "options": options}
+    settings = f"{speed} {term}{options}    "
+    if not via:
+        return Line(f"{letter} {target} {settings}", words=words)
+    return Line(f"{letter} {via}    ", (f"  {target} {settings}",), words)

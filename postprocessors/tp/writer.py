@@ -15,7 +15,7 @@ from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
-from rpl.writing.templates import templates
+from rpl.writing.templates import Macros, macros_of
 
 from . import tables
 from .assignments import Assignments
@@ -23,6 +23,7 @@ from .dumps import dump_files
 from .expressions import Expressions
 from .flow import Labels
 from .frames import Frames, free_numbers, highest_free_registers, kept_registers
+from .layout import laid_out
 from .lines import Line
 from .own import MODAL, monitors_of, noted_names, quiet_routines, steps_in
 from .positions import Points, point_number
@@ -81,7 +82,8 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     writer.finish(listings)
     ledger.check(program)
     beside = _beside(listings)
-    written = (_file(listing, writer.frames, listing.name in beside) for listing in listings)
+    say = macros_of(__package__, context.templates)
+    written = (_file(listing, writer.frames, listing.name in beside, say) for listing in listings)
     return [*written, *dump_files(program, writer.names)]
 
 
@@ -353,27 +355,24 @@ def _beside(listings: list[Listing]) -> set[str]:
     return starts
 
 
-def _file(listing: Listing, frames: Frames, beside: bool) -> OutputFile:
+def _file(listing: Listing, frames: Frames, beside: bool, say: Macros) -> OutputFile:
     """`beside`: the program must not ask for the arm, which another one has, only to look where it is (M: that it
     may)."""
     _settle(listing.points, frames)
     moves = any(line.first.startswith(_MOTION) or ("PR[" in line.first and not beside) for line in listing.lines)
     header = listing.header
     about = header.get("COMMENT", header.get("comment", "")).strip('"')
-    text = (
-        templates(__package__)
-        .get_template("program.ls.j2")
-        .render(
-            name=listing.name,
-            kind=header.get("PROG_TYPE", ""),
-            comment=comment(about),
-            lines=listing.lines,
-            created=header.get("CREATE", _NO_DATE),
-            modified=header.get("MODIFIED", _NO_DATE),
-            groups=header.get("DEFAULT_GROUP", _mask(listing.points) if moves else "*,*,*,*,*"),
-            application=[part.strip() for part in header.get("APPL", "").split(";") if part.strip()],
-            positions=list(listing.points.text()),
-        )
+    text = say(
+        "program",
+        name=listing.name,
+        kind=header.get("PROG_TYPE", ""),
+        comment=comment(about),
+        lines=laid_out(listing.lines, say),
+        created=header.get("CREATE", _NO_DATE),
+        modified=header.get("MODIFIED", _NO_DATE),
+        groups=header.get("DEFAULT_GROUP", _mask(listing.points) if moves else "*,*,*,*,*"),
+        application=[part.strip() for part in header.get("APPL", "").split(";") if part.strip()],
+        positions=list(listing.points.text()),
     )
     return OutputFile(f"{listing.name}.LS", ("\r\n".join(text.splitlines()) + "\r\n").encode("ascii"))
 
