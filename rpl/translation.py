@@ -11,6 +11,7 @@ from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, code
 from rpl.emulator.mechanismfile import Mechanism
 from rpl.emulator.model import RobotModel, load_robot
+from rpl.errors import UsageError
 from rpl.housestyle import compare_house_style
 from rpl.ir.analog import AnalogSetting
 from rpl.passes.analog import analog_ranges
@@ -126,7 +127,13 @@ def _translated(
         program = legalise(whole, context)
     legalised = len(collector)
     asked = WriteContext(collector, robot, options, context.register_names, context.foreign, templates)
-    files = target.write(program, asked)
+    try:
+        files = target.write(program, asked)
+    except UnicodeEncodeError as error:
+        if not templates:
+            raise
+        sign = error.object[error.start]
+        raise UsageError(f"a template of the plant's own gives {sign!r}, which {target.title} has not") from None
     if templates:
         shipped = target.write(program, replace(asked, diagnostics=Diagnostics(), templates={}))
         compare_house_style(files, shipped, target_name, collector)

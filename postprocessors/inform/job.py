@@ -15,9 +15,11 @@ import numpy as np
 from rpl import registry
 from rpl.diagnostics import Severity, code
 from rpl.writing.statements import CannotSayError
+from rpl.writing.templates import Macros
 
 from . import tables
 from .cell import Cell, Kept
+from .layout import laid_out
 from .places import WORLD, Position, matrix, values_of
 from .texts import ascii_text, fixed
 
@@ -144,17 +146,21 @@ class Job:
             raise CannotSayError(f"there is no axis {axis}", JOINT_ANGLE)
         return counts[axis - 1]
 
-    def text(self) -> str:
-        head = ["/JOB", f"//NAME {self.name}", "//POS", *self.header(), "//INST", f"///DATE {_DATE}"]
-        if self.comment:
-            head.append(f"///COMM {ascii_text(self.comment)[:32].strip()}")
-        head.append("///ATTR SC,RW")
+    def text(self, say: Macros) -> str:
+        groups = []
         if self.moves:
             bases, stations = self.cell.bases, self.cell.external - self.cell.bases
-            head.append("///GROUP1 RB1,BS1" if bases else "///GROUP1 RB1")
-            if stations > 0:
-                head.append("///GROUP2 ST1")
-        return "\r\n".join((*head, "NOP", *self.lines, "END", ""))
+            groups = ["RB1,BS1" if bases else "RB1", *(["ST1"] if stations > 0 else [])]
+        lines = say.lines(
+            "job",
+            name=self.name,
+            header=self.header(),
+            date=_DATE,
+            comment=ascii_text(self.comment)[:32].strip(),
+            groups=groups,
+            lines=laid_out(self.lines, say),
+        )
+        return "\r\n".join((*lines, ""))
 
     def header(self) -> list[str]:
         rows = [("C", number, kept) for kept, number in self.points.items()]

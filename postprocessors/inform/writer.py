@@ -15,6 +15,7 @@ from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
+from rpl.writing.templates import macros_of
 
 from . import tables
 from .assignments import Assignments
@@ -60,7 +61,7 @@ LONG_NAME = code(
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All jobs. Raises InternalError when the ledger finds a node that nobody accounted for."""
     same = unchanged(program)
-    if same is not None:
+    if same is not None and not context.templates:
         return same
     program = with_flags_in_bytes(program, context.register_names)
     ledger = EmissionLedger()
@@ -68,7 +69,8 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     jobs = [job for module in program.modules for job in writer.module(module)]
     writer.finish(jobs)
     ledger.check(program)
-    return [OutputFile(f"{job.name}.JBI", job.text().encode("ascii")) for job in jobs]
+    say = macros_of(__package__, context.templates)
+    return [OutputFile(f"{job.name}.JBI", job.text(say).encode("ascii")) for job in jobs]
 
 
 class _Writer:

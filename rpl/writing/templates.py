@@ -126,16 +126,6 @@ def macros_of(package: str, own: Mapping[str, str] | None = None) -> Macros:
     return Macros({**shipped, **replaced})
 
 
-@cache
-def templates(package: str) -> Environment:
-    """The environment with each `*.j2` file of a package whose templates are whole frames and no macros."""
-    from jinja2 import DictLoader
-
-    environment = _environment(False)
-    environment.loader = DictLoader(dict(macro_files(package)))
-    return environment
-
-
 def _environment(own: bool) -> Environment:
     """Block tags leave no lines; a word that is not given is an error. A plant's templates see texts only."""
     from jinja2 import Environment, StrictUndefined
@@ -242,4 +232,4 @@ def _meant(word: str, known: Mapping[str, object] | tuple[str, ...]) -> str:
     return f": there are {', '.join(known)}" if known else ""
 
 
-__all__ = ["MacroText", "Macros", "TemplateError", "macro_files", "macro_texts", "macros_of", "templates"]
+__all__ = ["MacroText", "Macros", "TemplateError", "macro_files", "macro_texts", "macros_of"]

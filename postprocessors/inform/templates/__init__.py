@@ -1,0 +1,1 @@
+"""Macros of INFORM jobs; a package so that the wheel holds them."""
