@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
@@ -33,6 +33,7 @@ from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import InternalError, UsageError
 
 if TYPE_CHECKING:
+    from rpl.cell import Cell
     from rpl.project import ReadProgram
     from rpl.proof.certificate import Question
     from rpl.proof.tolerance import Accepted
@@ -99,15 +100,13 @@ def command(
     """
     from rpl.cell import read_cell
     from rpl.proof.cellnames import report_unknown_names
-    from rpl.translation import translate_program
-    from rpl.writing.house import house_files
     from rpl.writing.registers import read_registers
 
     own, arms = _options(options), (about["robot"], about["to_robot"])
     target = _target(target, own)
     robots_exist(*arms)
     _certifiable(kept, paths, output)
-    house = house_files(templates, target, registry.target_names()) if templates is not None else None
+    house = _house(templates, target)
     numbers = read_registers(registers) if registers is not None else None
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
@@ -117,18 +116,7 @@ def command(
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
-        translation = translate_program(
-            read,
-            target,
-            *arms,
-            diagnostics,
-            numbers,
-            own,
-            given=around.variables if around is not None else None,
-            mechanisms=around.mechanisms if around is not None else (),
-            analog=around.analog if around is not None else (),
-            templates=house,
-        )
+        translation = _translated(read, target, arms, diagnostics, numbers, own, around, house)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
@@ -149,6 +137,39 @@ def command(
         _print(translation, written, output, proof, len(diagnostics.of(Severity.WARNING)))
     proved = status_of(proof) if proof is not None else OK
     return proved if proved != OK or not diagnostics.has_losses else GUARDED
+
+
+def _house(templates: Path | None, target: str) -> Mapping[str, str] | None:
+    """A plant's own templates for the target."""
+    from rpl.writing.house import house_files
+
+    return None if templates is None else house_files(templates, target, registry.target_names())
+
+
+def _translated(
+    read: ReadProgram,
+    target: str,
+    arms: tuple[str | None, str | None],
+    diagnostics: Diagnostics,
+    numbers: Mapping[tuple[str, int], str] | None,
+    own: Mapping[str, str],
+    around: Cell | None,
+    house: Mapping[str, str] | None,
+) -> Translation:
+    from rpl.translation import translate_program
+
+    return translate_program(
+        read,
+        target,
+        *arms,
+        diagnostics,
+        numbers,
+        own,
+        given=around.variables if around is not None else None,
+        mechanisms=around.mechanisms if around is not None else (),
+        analog=around.analog if around is not None else (),
+        templates=house,
+    )
 
 
 def _certifiable(kept: Path | None, paths: Sequence[str], output: Path | None) -> None:
