@@ -89,14 +89,13 @@ def test_outputs_at_a_corner_are_triggers_of_the_move_before_them() -> None:
     assert named.count("corner-output") == 2 and "early-logic" not in named
 
 
-def test_an_output_that_asks_at_a_corner_waits_for_it() -> None:
+def test_an_output_that_asks_at_a_corner_stops_the_robot_there() -> None:
     output = ir.Signal("digital_out", ir.IntLiteral(3))
     lines, named, lost = krl(CORNER, ir.Assign(output, ir.Unary("not", output)), CORNER, source="tp")
     assert not lost
-    at = lines.index("LIN p C_DIS")
-    wait = ["CONTINUE", "WAIT FOR rpl_at_corner", "CONTINUE", "$OUT[3]=NOT $OUT[3]"]
-    assert lines[at + 1 : at + 5] == wait
-    assert "corner-steps-early" in named and "early-logic" not in named
+    at = lines.index("LIN p")
+    assert lines[at + 1] == "$OUT[3]=NOT $OUT[3]"
+    assert "corner-stops-behind" in named and "early-logic" not in named
 
 
 NAMED_OUTPUT = """MODULE m

@@ -1,4 +1,4 @@
-"""Steps behind a corner that ask for what is now: done when the robot comes to the corner, which stays."""
+"""Steps behind a corner that ask for what is now: the robot stops at that corner, and that is told once."""
 
 from __future__ import annotations
 
@@ -59,22 +59,12 @@ def written(steps: str, target: str) -> Journey:
 
 @pytest.mark.parametrize("target", ["krl", "vplus"])
 @pytest.mark.parametrize("case", CASES)
-def test_what_is_asked_at_the_corner(case: str, target: str) -> None:
+def test_the_robot_stops_at_the_corner(case: str, target: str) -> None:
     journey = written(CASES[case], target)
     result = journey.run(cell=parse_cell(CELL, "cell.toml"))
     assert result.status == "finished"
-    assert journey.switched_on(result) - {3, 7} == {1, 9}
-    codes = {item.code.name for item in journey.found}
-    assert not codes & {"corner-stops-behind", "vplus-corner-stopped", "early-logic"}
-
-
-def test_the_robot_drives_its_corner() -> None:
-    """The next move is commanded before the robot comes to rest, in words of the language."""
-    journey = written(CASES["a place"], "krl")
-    assert "TRIGGER WHEN PATH=-20.0 DELAY=-100.0 DO rpl_at_corner=TRUE" in journey.text
-    assert "WAIT FOR rpl_at_corner" in journey.text
-    assert "C_DIS" in journey.text
-    assert "WAIT DISTANCE(HERE, DEST) <= 30" in written(CASES["a place"], "vplus").text
+    assert [item.origin.line for item in journey.found if item.code.name == "corner-stops-behind"] == [16]
+    assert not journey.losses
 
 
 KEPT_AS_THEY_ARE = {
@@ -86,6 +76,5 @@ KEPT_AS_THEY_ARE = {
 
 
 @pytest.mark.parametrize("case", KEPT_AS_THEY_ARE)
-def test_other_steps_need_no_wait_for_the_corner(case: str) -> None:
-    assert "rpl_at_corner" not in written(KEPT_AS_THEY_ARE[case], "krl").text
-    assert "DISTANCE(HERE" not in written(KEPT_AS_THEY_ARE[case], "vplus").text
+def test_other_steps_leave_the_corner(case: str) -> None:
+    assert "corner-stops-behind" not in {item.code.name for item in written(KEPT_AS_THEY_ARE[case], "vplus").found}

@@ -7,7 +7,6 @@ from __future__ import annotations
 from rpl.passes.legalise.paths.begunmoves import moves_ahead
 from rpl.passes.legalise.settings.accelerations import accelerations_of_moves
 from rpl.passes.legalise.settings.coordinatedmoves import coordinated_moves
-from rpl.passes.legalise.settings.corners.cornercalls import corner_calls
 from rpl.passes.legalise.settings.corners.cornerleads import corner_leads
 from rpl.passes.legalise.settings.corners.corners import corners
 from rpl.passes.legalise.settings.corners.cornersteps import corner_steps
@@ -47,7 +46,6 @@ STAGE = Stage(
         accelerations_of_moves,
         settings_of_one_move,
         corner_leads,
-        corner_calls,
         modal_to_explicit,
         full_zones,
         tool_data,

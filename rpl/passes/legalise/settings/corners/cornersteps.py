@@ -1,10 +1,5 @@
 """Steps behind a corner that ask for signals, times or the robot's place, where the source's program comes to them when
-the corner begins and the target's program comes there at another time.
-
-A target that runs ahead over all moves (KRL) is told by an action on the path that the robot has come to the corner;
-the program waits for that and is then allowed to go on while the robot drives. A target whose program goes on when a
-move has begun (V+) waits until as much of the way is left. In both the corner stays, because the next move is commanded
-before the robot comes to rest.
+the corner begins and the target's program comes there at another time: the robot stops at that corner.
 """
 
 from __future__ import annotations
@@ -13,94 +8,80 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import walk
 from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import doing, usage_of
 from rpl.passes.legalise.paths.begunmoves import looks
 from rpl.passes.legalise.paths.lookahead import touches
-from rpl.passes.legalise.rewriting.beside import Beside, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.explicit import Modal
-from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
-EARLY = code(
-    "corner-steps-early",
+__all__ = ["STOPS_BEHIND", "corner_steps"]
+
+STOPS_BEHIND = code(
+    "corner-stops-behind",
     Severity.WARNING,
-    "the target needs the next move some time before the corner: what stands behind this move is done {seconds:g} s "
-    "before the corner begins",
+    "the robot stops at this corner: the target's program waits for it in line {line}",
+    "where the corner matters, do this in front of the move",
 )
-# A controller that plans the corner needs the next move before it; RAPID's program goes on so long before it.
-_LEAD_S = 0.1
 _DRIVING = (ir.Move, ir.MoveExternal, ir.Spline)
 _UNKNOWN = (*_DRIVING, ir.WaitForMotion, ir.Label, ir.Goto, ir.Halt, ir.Raise)
 _LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
-_SEEN = frozenset(("current_target", "current_joints", "current_position"))
 _TIMES = frozenset(("timer", "timer_stopped", "timer_positive", "time"))
 
 
 @legalising()
 def corner_steps(program: ir.Program, context: Context) -> ir.Program:
-    """Only where the source's program goes on at a corner, and the target's can be told when."""
+    """Only where the source's program goes on at a corner, and the target's at another time."""
     source, target = (rules_of(one).advance for one in (context.source, context.target))
     if source.runs_ahead_of != "fly_by" or source.signals_stop:
         return program
     ahead = target.runs_ahead_of == "all" and context.capabilities.motion.concurrent is Concurrent.ADVANCE
     if not ahead and target.runs_ahead_of != "begun":
         return program
-    beside = Beside(program, context)
-    assigned = usage_of(program).assigned
-    busy = doing(program, _is_busy)
+    busy, assigned = doing(program, _is_busy), usage_of(program).assigned
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         modal = Modal(context, editor.scope, assigned, set())
-        return edit_bodies(routine, _Corners(editor, routine, beside, modal, busy, ahead, source.lead_s).body)
+        return edit_bodies(routine, _Corners(context, editor.scope, modal, busy).body)
 
-    return beside.placed(edit_routines(program, context, work))
+    return edit_routines(program, context, work)
 
 
 class _Corners:
     """Rewrites one routine. `busy`: routines (folded) that drive the robot, wait, or ask for what is now."""
 
-    def __init__(
-        self,
-        editor: Editor,
-        routine: ir.Routine,
-        beside: Beside,
-        modal: Modal,
-        busy: frozenset[str],
-        ahead: bool,
-        lead_s: float,
-    ) -> None:
-        self.editor, self.routine, self.beside, self.modal = editor, routine, beside, modal
-        self.busy, self.ahead, self.lead_s = busy, ahead, lead_s
-        self.flag: ir.Name | None = None
+    def __init__(self, context: Context, scope: Scope, modal: Modal, busy: frozenset[str]) -> None:
+        self.context, self.scope, self.modal, self.busy = context, scope, modal, busy
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
-        at = 0
-        while at < len(body):
-            statement = body[at]
-            at += 1
-            size = self.corner(statement)
-            if size is None or not isinstance(statement, ir.Move):
-                done.append(inside(statement, self.body))
-                continue
-            steps = self.behind(body[at:])
-            if not self.of_now(steps):
+        for at, statement in enumerate(body):
+            if isinstance(statement, ir.Move) and self.goes_over(statement):
+                asking = self.of_now(self.behind(body[at + 1 :]))
+                if asking is not None:
+                    self.context.diagnostics.report(STOPS_BEHIND, statement.origin, line=asking.origin.line)
+                    statement = replace(statement, blend=ir.BlendStop())
                 done.append(statement)
-                continue
-            done.extend(self.gate(statement, size))
-            at += len(steps)
-            for step in steps:
-                done.extend(self.allowed(_in_force(step, statement) if self.ahead else step))
-        same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
+            else:
+                done.append(inside(statement, self.body))
+        same = all(new is old for new, old in zip(done, body, strict=True))
         return body if same else tuple(done)
 
-    # ---- where
+    def goes_over(self, move: ir.Move) -> bool:
+        """Does the robot certainly drive through a corner into the next move?"""
+        if move.concurrent or move.search is not None or move.motion_class != "classic":
+            return False
+        match move.blend:
+            case None | ir.BlendStop():
+                return False
+            case ir.BlendZone(zone=zone, distance=None):
+                return self.modal.component(zone, "stop") == ir.BoolLiteral(False)
+        return True
 
     def behind(self, rest: ir.Body) -> ir.Body:
         """The steps before the next one that drives the robot, waits for it, leaves the list, or calls what may."""
@@ -121,85 +102,21 @@ class _Corners:
                 return name.lower() in self.busy
         return isinstance(node, _UNKNOWN)
 
-    def corner(self, statement: ir.Statement) -> ir.Expression | None:
-        """How far before the end of the move its corner begins (mm), where that is known."""
-        if not isinstance(statement, ir.Move) or statement.kind not in ("linear", "circular"):
-            return None
-        if statement.concurrent or statement.search is not None or statement.motion_class != "classic":
-            return None
-        match statement.blend:
-            case ir.BlendDistance(distance=size) if size is not None:
-                pass
-            case ir.BlendZone(zone=zone, distance=size):
-                stop = self.modal.component(zone, "stop")
-                if size is None and stop != ir.BoolLiteral(False):
-                    return None
-                size = size or self.modal.component(zone, "path")
-            case _:
-                return None
-        size = plain(size)
-        return size if isinstance(size, ir.RealLiteral) and size.value > 0.0 else None
-
-    def of_now(self, steps: ir.Body) -> bool:
-        """Does it matter when these steps are done, more than for outputs alone? Not where the robot stands first."""
+    def of_now(self, steps: ir.Body) -> ir.Statement | None:
+        """The first step for which it matters when it is done, more than for outputs alone. None where the robot stands
+        first."""
         for step in steps:
             match step:
                 case ir.WaitUntil(in_position=True) | ir.Wait() | ir.Message() | ir.Dialog():
-                    return False
+                    return None
                 case ir.Assign(target=ir.Name() | ir.Signal(kind="digital_out"), value=ir.BoolLiteral()):
                     continue  # an action on the path, where it is an output
             if self.asks(step):
-                return True
-        return False
+                return step
+        return None
 
     def asks(self, step: ir.Statement) -> bool:
-        return any(_asks(node) or _touches(node, self.editor.scope) for node in walk(step))
-
-    # ---- what is written
-
-    def gate(self, move: ir.Move, size: ir.Expression) -> ir.Body:
-        """The move, and the wait for its corner."""
-        later = tidy(move.origin)
-        lead = max(self.lead_s, _LEAD_S)
-        if lead > self.lead_s:
-            self.beside.context.diagnostics.report(EARLY, move.origin, seconds=lead)
-        if not self.ahead:
-            left = ir.Binary("<=", ir.System("remaining_distance"), self.left(move, size, lead))
-            return (replace(move, concurrent=True), ir.WaitUntil(left, origin=later))
-        if self.flag is None:
-            self.flag = self.beside.kept(self.editor, self.routine, "rpl_at_corner", ir.BoolType())
-        action = ir.Assign(self.flag, ir.BoolLiteral(True), origin=later)
-        before, early = ir.Unary("-", size), ir.Quantity(ir.RealLiteral(-lead), "s")
-        return (
-            ir.Assign(self.flag, ir.BoolLiteral(False), origin=move.origin),
-            ir.Trigger("end", action, distance=before, delay=early, origin=later),
-            replace(move, origin=later),
-            ir.LookAhead(origin=later),
-            ir.WaitUntil(self.flag, origin=later),
-        )
-
-    def left(self, move: ir.Move, size: ir.Expression, lead_s: float) -> ir.Expression:
-        """The way (mm) that is left that time before the corner begins."""
-        speed = move.speed.path if move.speed is not None else None
-        if speed is None and move.speed is not None and move.speed.profile is not None:
-            speed = self.modal.component(move.speed.profile, "path")
-        if speed is None:
-            return size
-        known = plain(speed)
-        if isinstance(known, ir.RealLiteral) and isinstance(size, ir.RealLiteral):
-            return ir.RealLiteral(float(f"{size.value + known.value * lead_s:.6g}"))
-        return ir.Binary("+", size, ir.Binary("*", known, ir.RealLiteral(lead_s)))
-
-    def allowed(self, step: ir.Statement) -> ir.Body:
-        """The step, which does not wait for the robot, nor do those in it."""
-        if not self.ahead:
-            return (step,)
-        waits = isinstance(step, ir.Wait | ir.WaitUntil) or touches(step, self.editor.scope)
-        mark = (ir.LookAhead(origin=tidy(step.origin)),) if waits else ()
-        return (*mark, inside(step, self.each))
-
-    def each(self, body: ir.Body) -> ir.Body:
-        return tuple(one for step in body for one in self.allowed(step))
+        return any(_asks(node) or _touches(node, self.scope) for node in walk(step))
 
 
 def _is_busy(node: object) -> bool:
@@ -219,23 +136,6 @@ def _asks(node: object) -> bool:
     return looks(node)
 
 
-def _in_force(step: ir.Statement, move: ir.Move) -> ir.Statement:
-    """The step; places seen with the tool and in the frame of the move are what the controller itself gives."""
-    null = ir.System("null_frame")
-
-    def change(node: object) -> object:
-        match node:
-            case ir.Builtin(function=function, arguments=(tool, *frame)) if function in _SEEN:
-                if tool == move.tool and (frame[0] if frame else null) == (move.frame or null):
-                    return replace(node, arguments=())
-        return node
-
-    return rewrite(step, change)
-
-
 def _touches(node: object, scope: Scope) -> bool:
     """Does the step use a signal that has a name?"""
     return isinstance(node, ir.Statement) and touches(node, scope)
-
-
-__all__ = ["corner_steps"]

@@ -10,19 +10,12 @@ the robot is there, the robot stops at the corner, and that is told.
 from __future__ import annotations
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.cornerways import Ways
 from rpl.passes.legalise.paths.lookahead import touches
+from rpl.passes.legalise.settings.corners.cornersteps import STOPS_BEHIND
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
-
-STOPS_BEHIND = code(
-    "corner-stops-behind",
-    Severity.WARNING,
-    "the robot stops at this corner: the target's program waits for it in line {line}",
-    "where the corner matters, do this in front of the move",
-)
 
 
 @legalising()
@@ -43,10 +36,8 @@ def kept_corners(program: ir.Program, context: Context) -> ir.Program:
     done = ways.followed()
     if done is None:
         return program
-    told = {item.origin for item in context.diagnostics if item.code.name == "corner-stops-in-call"}
     for origin, line in ways.stopped.items():
-        if origin not in told:
-            context.diagnostics.report(STOPS_BEHIND, origin, line=line)
+        context.diagnostics.report(STOPS_BEHIND, origin, line=line)
     return done
 
 
