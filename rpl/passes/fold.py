@@ -102,6 +102,22 @@ def _prelude_scope(dialect: str) -> tuple[ir.Module, Scope] | None:
     return program.modules[0], ProgramScope(program).module(program.modules[0])
 
 
+@cache
+def _predefined(dialect: str, key: str) -> Value | None:
+    """The value of a language's own constant, by its folded name: always the same, and asked for at every move."""
+    found = _prelude_scope(dialect)
+    module, scope = found if found is not None else (None, None)
+    for one in module.declarations if module is not None else ():
+        if (
+            scope is not None
+            and isinstance(one, ir.Variable)
+            and scope.fold(one.name) == key
+            and one.initial is not None
+        ):
+            return _Folder(scope, None, 1).value(one.initial, scope.resolve(one.type))
+    return None
+
+
 class _Folder:
     def __init__(
         self,
@@ -178,15 +194,9 @@ class _Folder:
         return None if initial is None else inner.value(initial, home.resolve(declaration.type))
 
     def predefined(self, name: str) -> Value | None:
-        found = _prelude_scope(self.scope.module.dialect)
-        if found is None:
-            return None
-        module, scope = found
-        key = scope.fold(name)
-        for one in module.declarations:
-            if isinstance(one, ir.Variable) and scope.fold(one.name) == key and one.initial is not None:
-                return _Folder(scope, None, self.depth + 1).value(one.initial, scope.resolve(one.type))
-        return None
+        dialect = self.scope.module.dialect
+        found = _prelude_scope(dialect)
+        return None if found is None else _predefined(dialect, found[1].fold(name))
 
     def index(self, base: ir.Expression, indices: tuple[ir.Expression, ...]) -> Value | None:
         places = [self.value(index, None) for index in indices]
