@@ -8,7 +8,7 @@ from itertools import zip_longest
 
 from rpl import ir
 from rpl.diagnostics import Code, Diagnostics, Severity, code
-from rpl.passes.legalise.settings.modal import MM_S_PER_PERCENT
+from rpl.passes.percents import MM_S_PER_PERCENT
 from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import number_text

@@ -384,7 +384,7 @@ def _entries(program: ir.Program) -> set[str]:
     motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
     if motion:
         return motion
-    from rpl.passes.legalise.data.datalists import never_called, started_tasks
+    from rpl.passes.legalise.facts.entries import never_called, started_tasks
 
     beside = {task.entry.lower() for task in program.tasks if task.kind == "background"}
     return never_called(program) - started_tasks(program) - beside

@@ -341,7 +341,7 @@ def _entries(program: ir.Program) -> set[str]:
     motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
     if motion:
         return motion
-    from rpl.passes.legalise.data.datalists import started_first
+    from rpl.passes.legalise.facts.entries import started_first
 
     return started_first(program)
 

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
-from rpl.passes.legalise.data.datalists import never_called
+from rpl.passes.legalise.facts.entries import never_called
 
 from . import tables
 

@@ -12,7 +12,7 @@ from itertools import takewhile
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.datalists import moving_entries
+from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.rewriting.editing import edit_each
 from rpl.passes.legalise.stages import legalising

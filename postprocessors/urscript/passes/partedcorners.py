@@ -17,12 +17,12 @@ from rpl.controllers import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.cornersizes import written_size
 from rpl.passes.legalise.facts.moveorder import Pair, pairs_of
 from rpl.passes.legalise.facts.ways import Ways, between
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.legalise.settings.corners.overlapping import written_size
 from rpl.passes.legalise.stages import legalising
 
 SMALLER = code(

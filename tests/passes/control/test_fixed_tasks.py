@@ -54,7 +54,7 @@ def test_one_that_moves_the_robot_is_refused_by_name() -> None:
 def test_data_is_set_by_the_program_that_has_the_same_first_routine_as_a_task() -> None:
     """Tasks of RAPID all begin with main: only the one that moves sets the program's data at its start."""
     from rpl import ir
-    from rpl.passes.legalise.data.datalists import moving_entries
+    from rpl.passes.legalise.facts.entries import moving_entries
 
     main = ir.Routine("main", body=(ir.Return(),))
     beside = ir.Task("T2", "main", "background", modules=("beside",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.data.datalists import never_called
+from rpl.passes.legalise.facts.entries import never_called
 from rpl.passes.legalise.routines.optional import fit_parameters
 from rpl.passes.legalise.statements.errors import check_errors
 from rpl.passes.legalise.statements.logic import decide_logic

@@ -17,7 +17,7 @@ from rpl import ir
 from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, Value, constant
-from rpl.passes.legalise.data.datalists import calls_of, moving_entries, reached, routines_beside
+from rpl.passes.legalise.facts.entries import calls_of, moving_entries, reached, routines_beside
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, usage_of
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope

@@ -16,7 +16,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, element_key
 from rpl.passes.legalise.context import ProgramScope
-from rpl.passes.legalise.data.datalists import routines_beside
+from rpl.passes.legalise.facts.entries import routines_beside
 from rpl.passes.legalise.facts.forward import Forward, beside, reactions, started
 from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression, each_statement
 from rpl.passes.legalise.rewriting.walk import unchanged_in

@@ -19,8 +19,8 @@ from typing import Generic, TypeVar
 
 from rpl import ir
 from rpl.ir.walk import bodies, is_expression, walk
-from rpl.passes.legalise.data.datalists import never_called
 from rpl.passes.legalise.facts.effects import children
+from rpl.passes.legalise.facts.entries import never_called
 from rpl.passes.legalise.facts.reach import armed_statements, with_calls
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.scope import ProgramScope, Scope

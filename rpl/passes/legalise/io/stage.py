@@ -15,7 +15,7 @@ from rpl.passes.legalise.io.restingwaits import resting_waits
 from rpl.passes.legalise.io.seldomlooks import seldom_looks
 from rpl.passes.legalise.io.signals import name_signals, number_signals
 from rpl.passes.legalise.io.timers import timers_to_clocks
-from rpl.passes.legalise.refusals.__init__ import refuse
+from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.stages import Stage
 
 STAGE = Stage(

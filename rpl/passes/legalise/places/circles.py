@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.data.datalists import moving_entries
+from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 

@@ -14,7 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant, lasting, real
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.datalists import routines_beside
+from rpl.passes.legalise.facts.entries import routines_beside
 from rpl.passes.legalise.facts.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.records.records import RECORDS, Records
 from rpl.passes.legalise.rewriting.library import Library, composed, minus, number, plus, times

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.datalists import moving_entries, never_called, started_tasks
+from rpl.passes.legalise.facts.entries import moving_entries, never_called, started_tasks
 from rpl.passes.legalise.facts.heldtexts import named_by_texts
 from rpl.passes.legalise.facts.usage import base_name, doing
 from rpl.source import NOWHERE

@@ -15,16 +15,17 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
-from rpl.passes.legalise.data.datalists import moving_entries
+from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.settings import carriedframes
-from rpl.passes.legalise.settings.modal import DROPPED, JOINT_BLEND, MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
+from rpl.passes.legalise.settings.modal import DROPPED, JOINT_BLEND
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
 from rpl.passes.legalise.settings.usualplaces import TURNING, usual_places, usual_turns
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names

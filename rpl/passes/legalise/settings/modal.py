@@ -19,6 +19,7 @@ from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.settings.carriedframes import ROOT, UNIT
 from rpl.passes.legalise.settings.tooldata import HOME, PLACES, tool_of, work_object_of
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 
@@ -42,12 +43,8 @@ UNIT_ROOT = code(
     Severity.WARNING,
     "where a mechanism stands is not said by the target's programs but by its configuration; it is left out",
 )
-# A joint move's speed in percent as a tool speed: 100 % is the largest programmable tool speed of the target.
-MM_S_PER_PERCENT = 50.0
 # The path speed of a move that only its turning speed limits: the largest programmable one.
 _FREE_PATH_MM_S = 5000.0
-# A joint blend in percent (of 90 degrees on KUKA) as a zone radius; zones are capped at half the move like the blend.
-ZONE_MM_PER_PERCENT = 4.0
 _STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
 # Values with which a dropped setting says what the target does anyway.
 USUAL = {

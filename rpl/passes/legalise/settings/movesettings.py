@@ -20,10 +20,11 @@ from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
 from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
-from rpl.passes.legalise.settings.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, ZONE_MM_PER_PERCENT, says
+from rpl.passes.legalise.settings.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
 from rpl.passes.legalise.settings.servedsettings import only_served
 from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.percents import ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts
 
 _WORLD = ir.System("null_frame")

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.data.datalists import moving_entries
+from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 

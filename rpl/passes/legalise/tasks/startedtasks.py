@@ -13,7 +13,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.datalists import never_called
+from rpl.passes.legalise.facts.entries import never_called
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 

@@ -12,9 +12,9 @@ from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.data.datalists import never_called
 from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.facts.effects import blocks, statements_in
+from rpl.passes.legalise.facts.entries import never_called
 from rpl.passes.legalise.places.nextmove.nextmove import fixed_setting, moves, set_at_move
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside, leaves

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.data.datalists import moving_entries
+from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.modalflow import SCALED, Flow, State
 from rpl.passes.legalise.facts.saidaccelerations import number_of
 from rpl.passes.legalise.stages import legalising

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
-from rpl.passes.fold import constant, constant_number
+from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.facts.cornersizes import written_size
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
-from rpl.passes.values import Record, pose_of
+from rpl.passes.values import pose_of
 
 LEFT_OUT = code(
     "move-left-out",
@@ -76,24 +77,6 @@ def _corner(statement: ir.Statement, scope: Scope) -> _Corner | None:
     if pose is None or size is None:
         return None
     return _Corner(statement, pose.position, (statement.tool, statement.frame), size)
-
-
-def written_size(blend: ir.Blend | None, scope: Scope) -> float | None:
-    """The size of a corner as far as it is known before the run, mm; 0 for a stop, None for another measure."""
-    match blend:
-        case ir.BlendDistance(distance=distance) if distance is not None:
-            return constant_number(distance, scope)
-        case ir.BlendZone(distance=distance) if distance is not None:
-            return constant_number(distance, scope)
-        case ir.BlendZone(zone=zone):
-            value = constant(zone, scope)
-            if not isinstance(value, Record):
-                return None
-            path = value.part("path")
-            return 0.0 if value.part("stop") else float(path) if isinstance(path, int | float) else None
-        case None | ir.BlendStop():
-            return 0.0
-    return None
 
 
 def _rewritten(program: ir.Program, change: Callable[[Scope, ir.Body], ir.Body]) -> ir.Program:
