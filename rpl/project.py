@@ -84,7 +84,7 @@ class ReadProgram:
 
     def _expanded(self, name: str, program: ir.Program) -> ir.Program:
         if name not in self._whole:
-            self._whole[name] = expanded(program)
+            self._whole[name] = at_any_depth(lambda: expanded(program))
         return self._whole[name]
 
     def _parts(self) -> list[str]:

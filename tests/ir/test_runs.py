@@ -113,3 +113,11 @@ def test_the_claims_of_runs_rebuild_the_source() -> None:
     for run in (first, second):
         ledger.claim(int(run.columns.starts[0]), int(run.columns.ends[-1]), "lowered")
     assert ledger.rebuilt() == source.text
+
+
+def test_runs_in_deep_blocks_come_out_too() -> None:
+    moves = ["LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}"] * 40
+    text = ["DEF deep()", *["IF TRUE THEN"] * 1000, *moves, *["ENDIF"] * 1000, "END", ""]
+    found = read(source_from_text("deep.src", "\n".join(text)), runs.SHORTEST)[0]
+    assert len(taken(found.reduced)) == 1
+    assert sum(isinstance(node, ir.Move) for node in walk(*found.program.modules)) == 40
