@@ -19,6 +19,12 @@ _CODE = re.compile(r'(?:[^/"]|"(?:[^"\\\r\n]|\\.)*(?:"|$)|/(?!/))*')
 _BLANKS = " \t\f\ufeff\u00a0"
 
 
+def code_of(text: str) -> str:
+    """A line's text without the comment behind it."""
+    found = _CODE.match(text)
+    return (found[0] if found else text).strip(_BLANKS)
+
+
 def split(source: Source, headers: tuple[Header, ...]) -> Iterator[Piece]:
     """The pieces of a file."""
     at = 0

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.reading.pieces import Close, Element, Middle, Open
 from rpl.reading.shapes import StatementError, SyntaxTree
 from rpl.source import Origin
@@ -14,7 +16,13 @@ from .expressions import parts_of, subtree
 from .facts import Header
 from .motion import KINDS, Motion
 from .places import POSE_PARTS, WORLD, Value, angle, moved_to, pose
+from .split import code_of
 
+UNREAD_CONDITION = code(
+    "val3-unread-condition", Severity.LOSS, "cannot read this condition: {reason}", "a run stops there"
+)
+_BOOL = ir.BoolType()
+_KEYWORD = re.compile(r"^\w+\s*")
 Lowered = Element | tuple[Element, ...]
 _ENDS = {"endif": "if", "endwhile": "while", "endfor": "for", "endswitch": "switch", "end": "program"}
 # Conditions that are looked at more than once: nothing can be done in front of them.
@@ -43,21 +51,21 @@ class Statements(Motion):
             case "endif" | "endwhile" | "endfor" | "endswitch" | "end":
                 return Close(_ENDS[tree.data], None, origin)
             case "if_head":
-                return Open("if", self.value(subtree(children[-1])).node, origin)
+                return Open("if", self.condition(children[-1]), origin)
             case "elseif":
-                return Middle("if", self.value(subtree(children[-1])).node, origin)
+                return Middle("if", self.condition(children[-1]), origin)
             case "else":
                 return Middle("if", None, origin)
             case "while_head":
-                return Open("while", self.value(subtree(children[0])).node, origin)
+                return Open("while", self.condition(children[0]), origin)
             case "do_head":
                 return Open("do", None, origin)
             case "until":
-                return Close("do", self.value(subtree(children[0])).node, origin)
+                return Close("do", self.condition(children[0]), origin)
             case "for_head":
                 return self.counting(children)
             case "switch_head":
-                return Open("switch", self.value(subtree(children[0])).node, origin)
+                return Open("switch", self.condition(children[0], ir.RealType()), origin)
             case "case":
                 values = tuple(self.value(subtree(child)).node for child in children)
                 return Middle("switch", values, origin)
@@ -74,6 +82,15 @@ class Statements(Motion):
             case "assign":
                 return self.assigned(subtree(children[0]), subtree(children[1]))
         return self.performed(subtree(children[0]))
+
+    def condition(self, tree: object, type: ir.Type = _BOOL) -> ir.Expression:
+        """What a block asks. One that cannot be read is a value that only the controller has: the block stays whole."""
+        try:
+            return self.value(subtree(tree)).node
+        except StatementError as error:
+            self.diagnostics.report(UNREAD_CONDITION, self.origin, reason=str(error))
+            text = _KEYWORD.sub("", code_of(self.origin.text))
+            return ir.VendorValue("val3", text, type, origin=self.origin)
 
     def begin(self) -> Open:
         header = next((one for one in self.headers if one.start <= self.origin.start < one.end), None)

@@ -193,12 +193,13 @@ class _Application:
                 self.diagnostics.report(LOST, one.origin, name="a first value", reason=str(error))
         return lines
 
-    def parameter(self, parameter: ir.Parameter, scope: Scope) -> tuple[str, str, bool]:
+    def parameter(self, parameter: ir.Parameter, scope: Scope) -> tuple[str, str, str, bool]:
         type, _ = _element(scope.resolve(parameter.type), scope)
         if isinstance(type, ir.SignalType):
-            return parameter.name, "dio" if type.kind.startswith("digital") else "aio", False
+            return parameter.name, "dio" if type.kind.startswith("digital") else "aio", "element", False
         word = self.roles.get(parameter.name) or tables.TYPES.get(type.__class__.__name__, "num")
-        return parameter.name, word, parameter.mode == "reference"
+        form = "array" if isinstance(scope.resolve(parameter.type), ir.ArrayType) else "element"
+        return parameter.name, word, form, parameter.mode == "reference"
 
     def local(
         self, declaration: ir.Declaration, expressions: Expressions, found: list[tuple[str, str, int]]

@@ -154,3 +154,53 @@ def test_a_task_runs_beside() -> None:
 )
 def test_damage_costs_its_statement_and_is_told(code: str, reported: str) -> None:
     assert reported in codes(read(code)[1])
+
+
+TREE = [
+    ("fCell", "frame", 'x="300" z="-200" fatherId="world[0]"'),
+    ("fTray", "frame", 'y="-40" rz="90" fatherId="fCell[0]"'),
+    ("pTray", "pointRx", 'x="20" y="10" z="40" rx="180" rz="180" fatherId="fTray[0]"'),
+    ("tLong", "tool", 'z="30" fatherId="tGrip[0]"'),
+]
+
+
+def test_frames_and_tools_hang_on_their_fathers() -> None:
+    (move,) = body("movej(pTray,tLong,mStop)", TREE)
+    assert isinstance(move, ir.Move)
+    assert move.frame == ir.Binary(":", ir.Name("fCell"), ir.Name("fTray"))
+    assert move.tool == ir.Binary(":", ir.Name("tGrip"), ir.Name("tLong"))
+    code = "movej(pTray,tLong,mStop)\nwaitEndMove()\nl=here(tLong,world)\n"
+    code += "if abs(l.trsf.x-290)<0.01 and abs(l.trsf.y+20)<0.01 and abs(l.trsf.z+160)<0.01\ndoOut=true\nendIf"
+    local = '<Locals><Local name="l" type="pointRx" xsi:type="array" size="1" /></Locals>\n---\n'
+    assert outputs(run(local + code, TREE)) == [("doOut", True)]
+
+
+def test_joints_of_a_point_are_given_only_where_there_are_any() -> None:
+    rows = [("jFound", "jointRx", ""), ("pFar", "pointRx", 'x="3000" rx="180"')]
+    code = "bX=pointToJoint(tGrip,jHome,{point},jFound)\ndoOut=bX\n"
+    assert outputs(run(code.format(point="pA"), rows)) == [("doOut", True)]
+    assert outputs(run(code.format(point="pFar"), rows)) == []
+
+
+def test_a_block_whose_condition_cannot_be_read_stays_whole() -> None:
+    program, found = read("if (unheard(3)==1) // why\nnX=2\nelse\nnX=3\nendIf")
+    assert codes(found) == ["val3-unread-condition"]
+    (choice,) = program.modules[0].routines[0].body
+    assert isinstance(choice, ir.If) and isinstance(choice.branches[0][0], ir.VendorValue)
+    assert choice.branches[0][0].text == "(unheard(3)==1)"
+
+
+def test_a_limited_wait_cannot_stand_in_the_condition_of_a_loop() -> None:
+    assert "unreadable-statement" in codes(read("while watch(diIn==true,1)\nnX=1\nendWhile")[1])
+
+
+@pytest.mark.parametrize(
+    ("words", "sign"), [("enegative", -1), ("epositive", 1)], ids=["below the stretched arm", "above it"]
+)
+def test_the_elbow_is_on_the_side_that_the_point_says(words: str, sign: int) -> None:
+    place = f'x="250" y="0" z="250" shoulder="righty" elbow="{words}" wrist="wpositive"'
+    code = "movej(pSide,flange,mStop)\nwaitEndMove()\nl=herej()\nnX=l.j3\ndoOut=nX*{sign}>0"
+    local = '<Locals><Local name="l" type="jointRx" xsi:type="array" size="1" /></Locals>\n---\n'
+    result = run(local + code.format(sign=sign), [("pSide", "pointRx", place)])
+    assert result.status == "finished", result.as_json()["fault"]
+    assert outputs(result) == [("doOut", True)]
