@@ -34,7 +34,7 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
 
-@legalising()
+@legalising(sees=("For", "While", "Repeat", "Loop"))
 def fit_loops(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the loop statements and rules of the target."""
 

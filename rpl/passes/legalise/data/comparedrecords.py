@@ -21,7 +21,10 @@ _PLACES = (ir.Name, ir.Index, ir.Field)
 _AXES = tuple(ir.COMPONENTS[ir.AxesType])
 
 
-@legalising(unless=lambda context: DataRule.COMPARED_RECORDS in context.capabilities.data.rules)
+@legalising(
+    unless=lambda context: DataRule.COMPARED_RECORDS in context.capabilities.data.rules,
+    sees=("operator =", "operator <>"),
+)
 def compared_records(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not compare records themselves."""
 

@@ -13,7 +13,7 @@ from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising()
+@legalising(sees=("Index",))
 def joined_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without arrays of their own."""
     return program if Composite.ARRAYS in context.capabilities.data.composites else _Joined(program, context).program()

@@ -19,7 +19,7 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
 
-@legalising(unless=lambda context: Fault.INDEX_FRACTION in context.capabilities.errors.faults)
+@legalising(unless=lambda context: Fault.INDEX_FRACTION in context.capabilities.errors.faults, sees=("Index",))
 def whole_subscripts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose controllers do not stop at such an index themselves."""
     scopes = ProgramScope(program)

@@ -13,7 +13,7 @@ from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: "error_text" in context.capabilities.functions)
+@legalising(unless=lambda context: "error_text" in context.capabilities.functions, sees=("function error_text",))
 def error_texts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the function."""
     asked = any(isinstance(one, ir.Builtin) and one.function == "error_text" for one in walk(*program.modules))

@@ -27,7 +27,7 @@ _PLACES = {
 }
 
 
-@legalising()
+@legalising(sees=("System",))
 def interrupt_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such system variables, whose programs can have interrupts."""
     has = context.capabilities.system_variables

@@ -21,7 +21,7 @@ _TELLING = {"scan_from": ".ret1", "format_into": ".ret1"}  # procedures that set
 _NO_MEMBERS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.Quantity, ir.Aggregate)
 
 
-@legalising()
+@legalising(sees=("Switch",))
 def possible_cases(program: ir.Program, context: Context) -> ir.Program:
     """The program without cases that no value leads to."""
     held = _Held.of(program)

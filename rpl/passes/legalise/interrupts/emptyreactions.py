@@ -25,7 +25,7 @@ LEFT_OUT = code(
 )
 
 
-@legalising()
+@legalising(sees=("DeclareInterrupt",))
 def without_empty_reactions(program: ir.Program, context: Context) -> ir.Program:
     """The program without such interrupts, unless another one has the same number."""
     scopes = ProgramScope(program)

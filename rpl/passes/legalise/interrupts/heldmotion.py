@@ -43,7 +43,10 @@ _TIME = (
 _LEAVING = (ir.Return, ir.Goto, ir.Raise, ir.Retry, ir.TryNext, ir.ResumeLevel, ir.ClearMotion, ir.StartMotion)
 
 
-@legalising(unless=lambda context: "StartMotion" in context.capabilities.statements or drops_braked(context))
+@legalising(
+    unless=lambda context: "StartMotion" in context.capabilities.statements or drops_braked(context),
+    sees=("StopMotion",),
+)
 def held_motion(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot start the motion again by a word of their own, and whose brake does not drop it."""
     connected: set[str] = set()

@@ -26,7 +26,7 @@ COMPUTED = code(
 _REACH = 32
 
 
-@legalising()
+@legalising(sees=("Signal",))
 def named_flags(program: ir.Program, context: Context) -> ir.Program:
     """For every target."""
     names: dict[str, str] = {}
@@ -54,7 +54,7 @@ def named_flags(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=(*modules, home))
 
 
-@legalising()
+@legalising(sees=("Signal", "System"))
 def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without flags, or with fewer than are named, and for programs that compute the number of one."""
     can = context.capabilities

@@ -26,7 +26,7 @@ _FRAME = "base"
 _POSE = ("x", "y", "z", "a", "b", "c")
 
 
-@legalising(unless=lambda context: context.capabilities.carries_rules)
+@legalising(unless=lambda context: context.capabilities.carries_rules, sees=("System",))
 def kept_settings(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not carry the source's settings, and for the settings that a program reads."""
     can = context.capabilities

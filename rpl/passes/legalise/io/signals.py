@@ -281,7 +281,9 @@ def _constant(index: ir.Expression | None) -> bool:
     return isinstance(index, ir.IntLiteral)
 
 
-@legalising(unless=lambda context: context.capabilities.io.signal_prefixes)
+@legalising(
+    unless=lambda context: context.capabilities.io.signal_prefixes, sees=("Signal", "SignalDeclaration", "SignalType")
+)
 def number_signals(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose signals have numbers."""
     computed = _computed(program)

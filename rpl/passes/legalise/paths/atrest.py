@@ -25,7 +25,9 @@ _INTERRUPTS = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.Trigger, ir.DefineTr
 _MOVING = ir.System("moving")
 
 
-@legalising(unless=lambda context: rules_of(context.source).advance.runs_ahead_of != "fly_by")
+@legalising(
+    unless=lambda context: rules_of(context.source).advance.runs_ahead_of != "fly_by", sees=("StopMotion", "System")
+)
 def at_rest(program: ir.Program, context: Context) -> ir.Program:
     """Only for sources whose moves without a corner have ended before the next statement, and where interrupts and
     actions on the way do not move the robot; their routines stay as they are."""

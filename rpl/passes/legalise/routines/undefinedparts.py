@@ -21,7 +21,7 @@ from rpl.passes.scope import ProgramScope, Scope
 _MOST = 512  # elements of a list that is written out
 
 
-@legalising()
+@legalising(sees=("function is_uninitialised",))
 def asked_elements(program: ir.Program, context: Context) -> ir.Program:
     """The program without the question about elements, as far as it can be followed."""
     if not any(_element(node) for node in walk(*program.modules)):

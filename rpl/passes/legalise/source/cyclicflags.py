@@ -29,7 +29,7 @@ _FLAG = "cyclic_flag"
 _JUMPS = (ir.Label, ir.Goto)
 
 
-@legalising(unless=lambda context: _FLAG in context.capabilities.system_variables)
+@legalising(unless=lambda context: _FLAG in context.capabilities.system_variables, sees=(f"system {_FLAG}",))
 def cyclic_flags(program: ir.Program, context: Context) -> ir.Program:
     """The program without flags that are evaluated cyclically."""
     if not _has_flags(program):

@@ -21,7 +21,7 @@ _ASKED = {
 }
 
 
-@legalising()
+@legalising(sees=("System",))
 def load_readings(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that ask for the mass or its centre and set them by written-out loads."""
     nodes = list(walk(*program.modules))

@@ -14,7 +14,7 @@ from rpl.passes.legalise.stages import legalising
 _OUTPUTS = {"digital_in": "digital_out", "group_in": "group_out", "analog_in": "analog_out"}
 
 
-@legalising(unless=lambda context: context.capabilities.carries_rules)
+@legalising(unless=lambda context: context.capabilities.carries_rules, sees=("Signal",))
 def read_ports(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs with such a port; names that a declaration gives are signals of one kind."""
     named = {(one.kind, one.name.lower()) for one in walk(*program.modules) if isinstance(one, ir.Signal) and one.name}

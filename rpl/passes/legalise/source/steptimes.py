@@ -26,7 +26,7 @@ _STEP = ir.System("step_time")
 _CYCLE_S = 0.012  # of a source that says nothing about it: the cycle in which controllers interpolate
 
 
-@legalising(unless=lambda context: _STEP.name in context.capabilities.system_variables)
+@legalising(unless=lambda context: _STEP.name in context.capabilities.system_variables, sees=("system step_time",))
 def step_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a system variable."""
     if _STEP not in list(walk(*program.modules)):

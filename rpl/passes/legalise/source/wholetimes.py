@@ -17,7 +17,7 @@ _ORDER = frozenset(("<", "<=", ">", ">="))
 _TIMES = frozenset(("timer", "time"))
 
 
-@legalising(unless=lambda context: context.capabilities.carries_rules)
+@legalising(unless=lambda context: context.capabilities.carries_rules, sees=("Binary",))
 def whole_times(program: ir.Program, context: Context) -> ir.Program:
     """For all targets but the one that says everything as it is."""
     modules = tuple(rewrite(module, _changed) for module in program.modules)

@@ -57,7 +57,9 @@ def message_lines(program: ir.Program, context: Context) -> ir.Program:
     return edit_all(program, lambda body: map_body(body, change))
 
 
-@legalising(unless=lambda context: MessageRule.NUMBERED in context.capabilities.texts.messages)
+@legalising(
+    unless=lambda context: MessageRule.NUMBERED in context.capabilities.texts.messages, sees=("Message", "Dialog")
+)
 def senders_as_texts(program: ir.Program, context: Context) -> ir.Program:
     """The number of an alarm as a text, where what stands in front of a message is one."""
 

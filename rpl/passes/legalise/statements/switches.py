@@ -16,7 +16,7 @@ from rpl.passes.legalise.rewriting.editing import (
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising()
+@legalising(sees=("Switch",))
 def unroll_switches(program: ir.Program, context: Context) -> ir.Program:
     """The program with only such Switch statements as the target has."""
 

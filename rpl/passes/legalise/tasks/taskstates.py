@@ -20,7 +20,7 @@ from rpl.passes.legalise.stages import legalising
 ASKS = "task_runs"
 
 
-@legalising(unless=lambda context: ASKS in context.capabilities.functions)
+@legalising(unless=lambda context: ASKS in context.capabilities.functions, sees=("TaskControl",))
 def task_states(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not know whether a task runs."""
     asked = {name for node in walk(*program.modules) if (name := _asked(node)) is not None}

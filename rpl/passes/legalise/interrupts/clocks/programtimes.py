@@ -26,7 +26,8 @@ _TIMERS = ("timer", "timer_stopped", "timer_positive")
                 or context.capabilities.io.clock_step_s
             )
         )
-    )
+    ),
+    sees=("system time",),
 )
 def program_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that ask for the time; a timer of a computed number could be any, so such programs stay."""

@@ -28,7 +28,8 @@ _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
         "TaskControl" not in context.capabilities.statements
         or "stop" in context.capabilities.tasks.operations
         or "start" not in context.capabilities.tasks.operations
-    )
+    ),
+    sees=("TaskControl",),
 )
 def stopped_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks can be started and not stopped."""

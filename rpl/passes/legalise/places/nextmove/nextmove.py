@@ -34,7 +34,8 @@ _OTHER_MOTION = (ir.MoveExternal, ir.Spline)
     unless=lambda context: (
         context.capabilities.settings.next_move
         and (not context.capabilities.settings.of_moves & {MoveSetting.SPEED, MoveSetting.BLEND})
-    )
+    ),
+    sees=("SetForNextMove",),
 )
 def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without settings for one move; where these say no speeds and corners, for those."""

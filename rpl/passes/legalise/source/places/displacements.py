@@ -24,7 +24,7 @@ _READ = ("current_target", "joints_to_target")
 _GIVEN = ("target_to_joints", "target_to_joints_near", "is_reachable")
 
 
-@legalising(unless=lambda context: _NAME in context.capabilities.system_variables)
+@legalising(unless=lambda context: _NAME in context.capabilities.system_variables, sees=(f"system {_NAME}",))
 def displacements(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the system variable, where the program sets it."""
     if not any(map(_sets, walk(*program.modules))):

@@ -5,7 +5,7 @@ own data say. Without the arm it stays, and the writer refuses it.
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
@@ -13,13 +13,11 @@ from rpl.passes.legalise.stages import legalising
 _HOME = "home_joints"
 
 
-@legalising()
+@legalising(sees=(f"system {_HOME}",))
 def home_positions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a system variable, and where the arm is known."""
     arm = context.robot
     if arm is None or _HOME in context.capabilities.system_variables:
-        return program
-    if not any(isinstance(node, ir.System) and node.name == _HOME for node in walk(*program.modules)):
         return program
     entries = tuple((f"j{at}", _number(float(angle))) for at, angle in enumerate(arm.home, 1))
 

@@ -19,7 +19,8 @@ _NONE = ir.System("null_frame")
         context.capabilities.carries_rules
         or not context.capabilities.settings.modal
         or not {"current_tool", "current_frame"} - context.capabilities.functions
-    )
+    ),
+    sees=("function current_tool", "function current_frame"),
 )
 def records_in_use(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without functions for them."""

@@ -14,7 +14,7 @@ _IN_USE = (ir.Builtin("current_tool", ()), ir.Builtin("current_frame", ()))
 _MODAL = (ir.System("tool"), ir.System("base"))
 
 
-@legalising(unless=lambda context: not context.capabilities.settings.modal)
+@legalising(unless=lambda context: not context.capabilities.settings.modal, sees=[f"function {one}" for one in _SEEN])
 def seen_half(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion, from programs that leave one of the two out."""
     if not any(map(_is_half, walk(*program.modules))):

@@ -92,7 +92,8 @@ END FUNCTION
         context.capabilities.carries_rules
         or not context.capabilities.routines.text_results
         or "format_into" in context.capabilities.procedures
-    )
+    ),
+    sees=("function format", "procedure format_into"),
 )
 def formats(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with texts as values and without C's own formats."""

@@ -6,7 +6,6 @@ its number.
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
@@ -106,18 +105,13 @@ END FUNCTION
         TextRule.LEADING_NUMBERS in context.capabilities.texts.rules
         or context.capabilities.carries_rules
         or not rules_of(context.source).leading_numbers
-    )
+    ),
+    sees=("function text_value",),
 )
 def leading_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that read texts which hold nothing but a number."""
-    if not any(_is_reading(node) for node in walk(*program.modules)):
-        return program
     worker = _Leading(program, context)
     return worker.helpers.added_to(worker.program())
-
-
-def _is_reading(node: object) -> bool:
-    return isinstance(node, ir.Builtin) and node.function == "text_value"
 
 
 class _Leading(Rewriter):

@@ -57,7 +57,10 @@ END FUNCTION
 }
 
 
-@legalising(unless=lambda context: {_WRITES, _READS} <= context.capabilities.functions)
+@legalising(
+    unless=lambda context: {_WRITES, _READS} <= context.capabilities.functions,
+    sees=(f"function {_WRITES}", f"function {_READS}"),
+)
 def text_bytes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without functions for bytes."""
     first = next((node for node in walk(*program.modules) if _is_bytes(node)), None)

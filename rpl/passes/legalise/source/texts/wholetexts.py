@@ -17,7 +17,7 @@ _PLAIN = (*ir.NUMBER_TYPES, ir.StringType, ir.CharType, ir.BoolType)
 _MOST = 24  # components that are written one by one
 
 
-@legalising(unless=lambda context: TextRule.WHOLE in context.capabilities.texts.rules)
+@legalising(unless=lambda context: TextRule.WHOLE in context.capabilities.texts.rules, sees=("Builtin",))
 def whole_texts(program: ir.Program, context: Context) -> ir.Program:
     """Where the target has no such texts itself."""
 

@@ -38,7 +38,7 @@ LEFT_OUT = code(
 _RULES = {"time": "times of parts (TIME_BLOCK)", "constant": "parts of constant speed (CONST_VEL)"}
 
 
-@legalising(unless=lambda context: "PathRule" in context.capabilities.statements)
+@legalising(unless=lambda context: "PathRule" in context.capabilities.statements, sees=("PathRule",))
 def without_path_rules(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose blocks say nothing of times and constant speeds: told once for each part, where it begins."""
 
@@ -50,8 +50,6 @@ def without_path_rules(program: ir.Program, context: Context) -> ir.Program:
             context.diagnostics.report(LEFT_OUT, node.origin, what=_RULES[what])
         return ir.Nothing(origin=node.origin)
 
-    if not any(isinstance(node, ir.PathRule) for node in walk(*program.modules)):
-        return program
     return replace(program, modules=tuple(rewrite(module, change) for module in program.modules))
 
 
