@@ -232,6 +232,10 @@ class _Collector:
                     self.value(key, entry, inner)
             case ir.ArrayType(), ir.Name() | ir.Index() | ir.Field():
                 self.unite(key, place_key(value, self.scope))
+            case ir.ArrayType(), ir.Call(name=called) if (routine := self.scope.routine(called)) is not None:
+                self.unite(key, id(routine))
+            case ir.ArrayType(), _ if key is not None:
+                self.wholes.fractional.add(key)  # a list that nothing is known of
             case ir.NamedType(name=name), ir.Aggregate(entries=entries):
                 self.record(name, entries)
 
