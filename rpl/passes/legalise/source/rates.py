@@ -15,6 +15,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, negation
 from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
@@ -40,6 +41,7 @@ LOST = code(
     "give it a time and a stop right behind it, or let a loop that does nothing else repeat it until a signal comes",
     stops=True,
 )
+_NO_SPEED = "the run decides its speed in several directions, and the target's moves have no time"
 _NOT_FOUND = "ERR_WHLSEARCH"
 _PART_S = 1.0  # s: how much of an endless way is written at once; less would stop more often, more might not be reached
 _LOGIC = (ir.Signal, ir.Unary, ir.Binary, ir.BoolLiteral, ir.IntLiteral, ir.RealLiteral)
@@ -99,6 +101,8 @@ class _Rates:
         assert isinstance(loop, LOOPS)  # asked by the caller
         moves = [one for one in loop.body if isinstance(one, ir.Move)]
         (move, *more) = moves
+        if not more and _is_rate(move) and self.has_no_speed(move):
+            return (inside(loop, lambda body: tuple(self.refused(one, _NO_SPEED) for one in body)),)
         going = _going(loop)
         if more or any(not _is_rate(one) for one in moves):
             return (inside(loop, self.body),)
@@ -110,15 +114,22 @@ class _Rates:
             return (replace(loop, body=(self.way(move, ir.RealLiteral(_PART_S)),)),)
         return (inside(loop, lambda body: tuple(self.refused(one) for one in body)),)
 
-    def refused(self, one: ir.Statement) -> ir.Statement:
-        if isinstance(one, ir.Move):
-            return stopped(one, LOST, self.context, reason="its loop counts its passes or does other work")
-        return inside(one, self.body)
+    def refused(self, one: ir.Statement, reason: str = "its loop counts its passes or does other work") -> ir.Statement:
+        return stopped(one, LOST, self.context, reason=reason) if isinstance(one, ir.Move) else inside(one, self.body)
+
+    def has_no_speed(self, move: ir.Move) -> bool:
+        """Does the run decide the speed in several directions, while the target's moves say no time? The move would go
+        as fast as the one before it."""
+        can = self.context.capabilities.settings
+        timed = "duration" in (can.speeds or ("duration",)) and (MoveSetting.SPEED in can.of_moves or not can.modal)
+        return not timed and any(value is None for _, value in _parts(move.target)) and _only(move.target) is None
 
     # ---- single ones
 
     def single(self, move: ir.Move, behind: ir.Body) -> tuple[ir.Body, int]:
         """What stands for the motion, and how many of the statements behind it are part of that."""
+        if self.has_no_speed(move):
+            return (stopped(move, LOST, self.context, reason=_NO_SPEED),), 0
         time = _seconds(move.speed.duration) if move.speed is not None and move.speed.duration is not None else None
         used = 0
         while used < len(behind) and isinstance(behind[used], ir.Nothing | ir.Wait):
