@@ -101,7 +101,8 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     for source in sorted(sources, key=lambda source: _suffix(source) == ".dat"):
         facts.reported.clear()
         cursor = Cursor()
-        runs = Runs(source, _parser(), lowering.lower, cursor, signs_placed=True, not_in=frozenset(("spline",)))
+        lone = frozenset(("spline",))
+        runs = Runs(source, _parser(), lowering.lower, cursor, diagnostics, signs_placed=True, not_in=lone)
         pieces = split(source, cursor)
         done = assemble(source, "krl", pieces, _parser(), lowering.lower, build, diagnostics, runs)
         reports.append(done.report)

@@ -78,7 +78,7 @@ def _read_file(
     statements = Statements(project, source.path, diagnostics)
     blocks = Blocks(project, diagnostics)
     cursor = Cursor()
-    runs = Runs(source, parser, statements.lower, cursor, signs_placed=False)
+    runs = Runs(source, parser, statements.lower, cursor, diagnostics, signs_placed=False)
     pieces = split(source, parser, statement_names(project, source.path), cursor)
     assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics, runs)
     task = _TASK_FOLDER.search(source.path)

@@ -14,6 +14,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.diagnostics import Diagnostics
 from rpl.ir.runs import CELL
 from rpl.reading.shapes import ShapeParser, StatementError, SyntaxTree
 from rpl.source import Origin, Source
@@ -69,11 +70,12 @@ class Runs:
         parser: ShapeParser,
         lower: Lower,
         cursor: Cursor,
+        diagnostics: Diagnostics,
         signs_placed: bool,
         not_in: frozenset[str] = frozenset(),
     ) -> None:
         self.source, self.parser, self.lower, self.cursor = source, parser, lower, cursor
-        self.signs_placed, self.not_in = signs_placed, not_in
+        self.diagnostics, self.signs_placed, self.not_in = diagnostics, signs_placed, not_in
         self.shapes: dict[tuple[str, str, str], _Shape | None] = {}
         self.seen = 0  # moves in a row
         self.passed = 0  # up to here looking was in vain
@@ -135,10 +137,7 @@ class Runs:
         """Where the numbers are in the move: it is read once with numbers that occur nowhere else."""
         marks = [f"{10_001 + at}{'.125' if '.' in number else ''}" for at, number in enumerate(numbers)]
         text = "".join(chain.from_iterable(zip(fixed, marks, strict=False))) + fixed[-1]
-        try:
-            move = self.lower(*self.parser.parse(text), Origin(self.source))
-        except StatementError:
-            return None
+        move = self.lowered(text, Origin(self.source))
         found = {spelling: path for path, spelling in _numbers(move, ())}
         ordered = tuple(found[mark] for mark in marks if mark in found)
         return ordered if isinstance(move, ir.Move) and len(ordered) == len(marks) else None
@@ -190,10 +189,19 @@ class Runs:
 
     def read(self, start: int, end: int) -> object:
         """One line in the usual way."""
+        return self.lowered(self.source.text[start:end], Origin(self.source, start, end))
+
+    def lowered(self, text: str, origin: Origin) -> object:
+        """What is read of a statement. None where something is reported: then each line has to be."""
+        before = len(self.diagnostics)
         try:
-            return self.lower(*self.parser.parse(self.source.text[start:end]), Origin(self.source, start, end))
+            done = self.lower(*self.parser.parse(text), origin)
         except StatementError:
             return None
+        if len(self.diagnostics) == before:
+            return done
+        del self.diagnostics.items[before:]
+        return None
 
     def proved(
         self,

@@ -106,6 +106,17 @@ def test_what_is_reported_of_one_move_is_reported_of_each() -> None:
     assert [name for name, _, _ in told].count("unknown-component") == 60
 
 
+def test_what_reading_reports_of_one_move_it_reports_of_each() -> None:
+    place = "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+    line = rf"SearchL \Sup, di1, found, {place}, v100, tool0;"
+    text = ["MODULE long", "VAR robtarget found;", "PROC main()", *[line] * 60, "ENDPROC", "ENDMODULE", ""]
+    source = source_from_text("long.mod", "\n".join(text))
+    fast, told = read(source, 2)
+    assert told == read(source, 10**9)[1]
+    assert isinstance(fast.program.modules[0].routines[0].body[-1], ir.Move)
+    assert [name for name, _, _ in told].count("option-without-effect") == 60
+
+
 def test_the_claims_of_runs_rebuild_the_source() -> None:
     source = krl([["1", "2", "3", "4", "5", "6"]] * 50)
     [first, second] = taken(read(source, 2)[0].lowered)
