@@ -82,8 +82,8 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     watches = _Watches(program, beside)
     watches.collect()
     serving: list[EndedMoves] = []
-    for one in (each for each in watches.watches.values() if each.served):
-        served = EndedMoves(program, context, one)
+    for watch in (each for each in watches.watches.values() if each.served):
+        served = EndedMoves(program, context, watch)
         served.marked = armed_statements(program, served)
         if served.leaves:
             served.marked = with_calls(program, served.marked, served.declaring)
