@@ -15,7 +15,6 @@ from .declarations import first_value, gathered, header
 from .helpers import HELPERS, with_needed
 from .levels import output_levels
 from .namespace import called_names, names_of, not_reached, one_namespace, programs
-from .readings import clean_readings
 from .standing import Standing
 from .statements import INDENT, Output, Printer
 
@@ -67,8 +66,8 @@ class _Script:
         }
 
     def cleaned(self) -> tuple[ir.Program, ir.Routine | None]:
-        """The program with numbers that are read out of poses rounded, and its start there."""
-        done = output_levels(clean_readings(self.program))
+        """The program with the levels of its outputs as the controller tells them, and its start there."""
+        done = output_levels(self.program)
         for module, new in zip(self.program.modules, done.modules, strict=True):
             for routine, rounded in zip(module.routines, new.routines, strict=True):
                 if routine is self.start:

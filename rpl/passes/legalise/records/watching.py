@@ -100,8 +100,8 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
         return edit_bodies(done, watches.body) if interrupts else done
 
     done = edit_routines(program, context, work)
-    for one in serving:
-        one.finish()
+    for each in serving:
+        each.finish()
     movers.finish()
     done = without_actions(done, [one for some in watches.lost.values() for one in some])
     done = watches.levels(beside.placed(done))

@@ -11,6 +11,8 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
@@ -20,8 +22,9 @@ _COMPARISONS = frozenset(("=", "<>", "<", ">", "<=", ">="))
 _CUT = frozenset(("floor", "ceil", "trunc", "fraction", "value_text", "sign"))
 
 
-def clean_readings(program: ir.Program) -> ir.Program:
-    """The program with such numbers rounded."""
+@legalising()
+def clean_readings(program: ir.Program, context: Context) -> ir.Program:
+    """Numbers read out of poses are rounded where they are kept, compared or cut."""
     scopes = ProgramScope(program)
     modules = []
     for module in program.modules:
