@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.tasks.calledtasks import called_tasks
-from rpl.passes.legalise.tasks.handles import known_handles
 from rpl.passes.legalise.tasks.secondstarts import second_starts
 from rpl.passes.legalise.tasks.startedtasks import started_tasks
 from rpl.passes.legalise.tasks.taskdata import shared_task_data
@@ -20,7 +19,6 @@ STAGE = Stage(
         task_names,
         started_tasks,
         task_states,
-        known_handles,
         second_starts,
         called_tasks,
     ),
