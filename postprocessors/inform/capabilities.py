@@ -56,13 +56,7 @@ CAPABILITIES = Capabilities(
             "ArrayType",
         )
     ),
-    said_otherwise=frozenset(
-        (
-            "statement WaitForMotion",  # the move before it gets PL=0, or nothing is needed where the robot stands
-            "system variable deceleration_percent",  # DEC= of the move behind it
-            "system variable flag",  # an element of the bank of flags by its number
-        )
-    ),
+    said_otherwise={"statement WaitForMotion": "PL=0 of the move before it; nothing where the robot stands"},
     names=NameRules(
         longest=tables.LONGEST_NAME,
         case_sensitive=False,

@@ -55,7 +55,10 @@ CAPABILITIES = Capabilities(
             *("NamedType", "ArrayType"),
         )
     ),
-    said_otherwise=frozenset(("function parse_number", "function parse_value")),
+    said_otherwise={
+        "function parse_number": "StrToReal and kin beside a BOOL",
+        "function parse_value": "StrToReal and kin beside a BOOL",
+    },
     names=NameRules(
         longest=24,
         case_sensitive=False,

@@ -51,13 +51,6 @@ CAPABILITIES = Capabilities(
     ),
     operators=OPERATORS,
     types=frozenset(type.__name__ for type in TYPE_NAMES),
-    said_otherwise=frozenset(
-        (
-            "type ArrayType",  # `{n}` behind the name, of any type of the table
-            "type NamedType",  # a RECORD by its name
-            "statement Trigger",  # TriggL and kin, together with the move
-        )
-    ),
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED),
     conversions=frozenset(("real", "round_half_away", "trunc", "truth", "code", "char")),
     places=Places(notation="rapid", rotation=Rotation.QUATERNION),

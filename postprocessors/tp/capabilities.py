@@ -87,16 +87,13 @@ CAPABILITIES = Capabilities(
             *("ArrayType",),
         )
     ),
-    said_otherwise=frozenset(
-        (
-            *("operator cand", "operator cor"),  # AND and OR of conditions that neither change nor fail
-            "function text_equal",  # SR[n]=SR[m] in an IF
-            "statement Trigger",  # TB, TA and DB of the move
-            "statement WaitForMotion",  # FINE of the move before it
-            "system variable external_speed",  # of a move: reported as left out
-            "system variable flag",  # F[n]
-        )
-    ),
+    said_otherwise={
+        "operator cand": "AND of conditions that neither change nor fail",
+        "operator cor": "OR of conditions that neither change nor fail",
+        "function text_equal": "SR[n]=SR[m] in an IF",
+        "statement WaitForMotion": "FINE of the move before it",
+        "system variable external_speed": "nothing: of a move, and reported as left out",
+    },
     names=NameRules(longest=36, case_sensitive=False, reserved=tables.RESERVED),
     conversions=frozenset(("real", "trunc", "round_half_away")),
     places=Places(

@@ -38,6 +38,7 @@ CAPABILITIES = Capabilities(
             *("round", "trunc", "sign", "text_part", "text_find", "number_text", "value_text", "character_code"),
             *("offset", "tool_offset", "displaced", "displaced_in_tool", "inverse", "compose", "pose_of", "distance"),
             *("current_target", "current_joints", "joints_to_target", "task_runs", "frame_from_points"),
+            *("euler_x", "euler_y", "euler_z"),
         )
     ),
     procedures=frozenset(),
@@ -52,9 +53,6 @@ CAPABILITIES = Capabilities(
         further="abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_",
     ),
     conversions=tables.words("real round_half_away trunc bit truth floor"),
-    said_otherwise=frozenset(
-        ("type SignalType", "function euler_x", "function euler_y", "function euler_z", "statement Initialise")
-    ),
     places=Places(notation="val3", rotation=Rotation.ZYX, rules=frozenset()),
     motion=Motion(turned_ways=frozenset(), paths=frozenset()),
     settings=Settings(

@@ -71,18 +71,16 @@ CAPABILITIES = Capabilities(
         )
     ),
     procedures=tables.words("increment decrement clear text_append text_copy text_clear"),
-    system_variables=frozenset((*tables.SYSTEM, *tables.SETTINGS, "timer", "flag", "moving", "actual_joint")),
+    system_variables=frozenset(
+        (*tables.SYSTEM, *tables.SETTINGS, "timer", "flag", "moving", "actual_joint", "remaining_distance")
+    ),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, *tables.WRITTEN_OPERATORS)),
     types=tables.words("RealType BoolType StringType PoseType TargetType JointsType ArrayType"),
-    said_otherwise=frozenset(
-        (
-            "function target_to_joints_near",  # the words of the posture that the joints mean (RIGHTY, ABOVE, FLIP)
-            "statement StartMotion",  # nothing is held back behind a BRAKE
-            "system variable remaining_distance",  # DISTANCE(HERE, DEST)
-            "system variable timer_stopped",  # timers run on; only one that is read while it stands is another matter
-            "type IntType",  # numbers of V+ are not declared, whole or not
-        )
-    ),
+    said_otherwise={
+        "function target_to_joints_near": "the words of the posture that the joints mean (RIGHTY, ABOVE, FLIP)",
+        "statement StartMotion": "nothing: no motion is held back behind a BRAKE",
+        "system variable timer_stopped": "nothing: timers run on; one that is read while it stands is a variable",
+    },
     names=NameRules(
         longest=tables.LONGEST_NAME,
         case_sensitive=False,

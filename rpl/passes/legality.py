@@ -14,7 +14,7 @@ from typing import get_args
 from rpl import ir
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, code
 from rpl.ir.walk import children, is_statement
-from rpl.passes.capabilities import Capabilities
+from rpl.passes.capabilities import Capabilities, Composite, DataRule, MoveSetting, TriggerRule
 from rpl.source import NOWHERE, Origin
 
 LEFT_OVER = code(
@@ -44,7 +44,7 @@ class Illegal:
 
 def illegal(program: ir.Program, can: Capabilities) -> Iterator[Illegal]:
     """Every node of the program that the tables do not have, in the program's order. One walk."""
-    fine = can.said_otherwise | EVERYWHERE
+    fine = EVERYWHERE.union(can.said_otherwise)
     stack: list[tuple[object, Origin]] = [(module, NOWHERE) for module in reversed(program.modules)]
     while stack:
         node, origin = stack.pop()
@@ -59,6 +59,28 @@ def illegal(program: ir.Program, can: Capabilities) -> Iterator[Illegal]:
 def kind_of(node: object, can: Capabilities) -> str:
     """The kind of a node that the tables do not have, empty where they have it."""
     match node:
+        case ir.System(name=name) if _of_record(name, can):
+            return ""
+        case ir.Trigger() if TriggerRule.OF_MOVES in can.motion.triggers or "DefineTrigger" in can.statements:
+            return ""
+        case ir.IntType() if "RealType" in can.types:
+            return ""  # where whole numbers are no type of their own, they are numbers as all others
+        case ir.ArrayType() if Composite.ARRAYS in can.data.composites:
+            return ""
+        case ir.NamedType() if can.data.composites & {Composite.RECORDS, Composite.ENUMS}:
+            return ""
+        case ir.Initialise() if DataRule.LISTS in can.data.rules:
+            return ""
+        case ir.Move(search=search) if search is not None and "Search" not in can.statements:
+            return "search of a move"
+        case ir.Handler() if not can.errors.handlers:
+            return "handler of errors"
+        case ir.EnumDeclaration() if Composite.ENUMS not in can.data.composites:
+            return "declaration EnumDeclaration"
+        case ir.RecordDeclaration() if Composite.RECORDS not in can.data.composites:
+            return "declaration RecordDeclaration"
+        case ir.AliasDeclaration() if DataRule.ALIASES not in can.data.rules:
+            return "declaration AliasDeclaration"
         case ir.Do(procedure=name):
             return "" if name in can.procedures else f"procedure {name}"
         case ir.Builtin(function=name):
@@ -71,6 +93,16 @@ def kind_of(node: object, can: Capabilities) -> str:
     if is_statement(node):
         return "" if name in can.statements else f"statement {name}"
     return f"type {name}" if node.__class__ in _TYPES and name not in can.types else ""
+
+
+def _of_record(name: str, can: Capabilities) -> bool:
+    """Is the system variable a setting that moves say themselves, or data of a bank?"""
+    banks = can.storage.banks.values()
+    if name == "deceleration_percent":
+        return MoveSetting.DECELERATION in can.settings.of_moves
+    if name == "flag" and banks and not can.io.flags:
+        return True
+    return any(bank.holds == name for bank in banks)
 
 
 def unguarded(program: ir.Program, can: Capabilities, reported: Collection[Diagnostic]) -> list[Illegal]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rpl.passes.capabilities.control import Control
@@ -49,9 +50,9 @@ class Capabilities:
     conversions: frozenset[str] = frozenset()
     """Conversions (ir.CONVERSIONS) that the writer prints."""
 
-    said_otherwise: frozenset[str] = frozenset()
+    said_otherwise: Mapping[str, str] = field(default_factory=dict)
     """Kinds of nodes (rpl.passes.legality.Illegal.kind) that stand in none of these tables, so that the passes avoid
-    them, and that the writer says in some forms of its own."""
+    them, and that the writer says in some forms of its own; and how it says them."""
 
     carries_rules: bool = False
     """The target's text says by which language's rules a module runs (RPL's USING), so nothing has to be rewritten."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from rpl import ir
@@ -55,11 +55,39 @@ def legalising(unless: Unless | None = None, sees: Iterable[str] = ()) -> Callab
 
 
 @dataclass(frozen=True, slots=True)
+class Clause:
+    """What a stage leaves nothing of in a program where the target's tables do not have it, unless a loss is reported
+    at its place: names of statement and type classes and neutral names, with spaces between them; further: whole kinds
+    (`handler of errors`)."""
+
+    statements: str = ""
+    functions: str = ""
+    procedures: str = ""
+    operators: str = ""
+    system: str = ""
+    types: str = ""
+    further: frozenset[str] = frozenset()
+
+    def kinds(self) -> frozenset[str]:
+        """As legality.Illegal.kind says them."""
+        words = (
+            ("statement", self.statements),
+            ("function", self.functions),
+            ("procedure", self.procedures),
+            ("operator", self.operators),
+            ("system variable", self.system),
+            ("type", self.types),
+        )
+        return self.further.union(f"{kind} {name}" for kind, names in words for name in names.split())
+
+
+@dataclass(frozen=True, slots=True)
 class Stage:
-    """Passes about one matter, in the order in which they run. name: of its folder."""
+    """Passes about one matter, in the order in which they run. name: of its folder; clause: what is checked behind."""
 
     name: str
     passes: tuple[Pass, ...]
+    clause: Clause = Clause()
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +109,7 @@ def with_placed(stages: tuple[Stage, ...], own: tuple[Placed, ...]) -> tuple[Sta
         if known.get(each.stage, Counter())[each.behind or each.before] != 1:
             beside = f"{each.behind or each.before} of {each.stage}"
             raise InternalError(f"{each.one.name} stands beside {beside}, which is not one pass")
-    return tuple(Stage(stage.name, _among(stage, own)) for stage in stages)
+    return tuple(replace(stage, passes=_among(stage, own)) for stage in stages)
 
 
 def _among(stage: Stage, own: tuple[Placed, ...]) -> tuple[Pass, ...]:

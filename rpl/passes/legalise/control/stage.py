@@ -12,7 +12,7 @@ from rpl.passes.legalise.control.locals import variables_of_routines
 from rpl.passes.legalise.control.loops import fit_made_loops
 from rpl.passes.legalise.control.parameters import fit_arguments
 from rpl.passes.legalise.control.steps import steps, steps_of_conditions
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "control",
@@ -25,5 +25,9 @@ STAGE = Stage(
         nest_branches,
         structure_to_labels,
         steps_of_conditions,
+    ),
+    Clause(
+        statements="ExitLoop Loop NextPass Repeat While",
+        operators="cand cor not",
     ),
 )

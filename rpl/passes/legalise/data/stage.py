@@ -13,7 +13,7 @@ from rpl.passes.legalise.data.lists import lists_in_variables
 from rpl.passes.legalise.data.numbers import numbers
 from rpl.passes.legalise.data.subscripts import joined_subscripts
 from rpl.passes.legalise.data.wholesubscripts import whole_subscripts
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "data",
@@ -27,5 +27,9 @@ STAGE = Stage(
         whole_subscripts,
         numbers,
         starting_values,
+    ),
+    Clause(
+        operators="mod",
+        types="CharType",
     ),
 )

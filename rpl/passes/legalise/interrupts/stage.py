@@ -25,7 +25,7 @@ from rpl.passes.legalise.interrupts.tasks.joins import joins
 from rpl.passes.legalise.interrupts.tasks.stoppedtasks import stopped_tasks
 from rpl.passes.legalise.interrupts.tasks.taskarguments import task_arguments
 from rpl.passes.legalise.interrupts.tasks.taskreferences import task_references
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "interrupts",
@@ -52,5 +52,8 @@ STAGE = Stage(
         stopped_tasks,
         joins,
         task_arguments,
+    ),
+    Clause(
+        statements="TaskControl",
     ),
 )

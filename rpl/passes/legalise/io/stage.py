@@ -16,7 +16,7 @@ from rpl.passes.legalise.io.seldomlooks import seldom_looks
 from rpl.passes.legalise.io.signals import name_signals, number_signals
 from rpl.passes.legalise.io.timers import timers_to_clocks
 from rpl.passes.legalise.refusals import refuse
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "io",
@@ -35,5 +35,10 @@ STAGE = Stage(
         resting_waits,
         pulsed_outputs,
         pulse_levels,
+    ),
+    Clause(
+        statements="ConnectInterrupt ControlInterrupt DeclareInterrupt",
+        system="timer_positive",
+        further=frozenset(("search of a move",)),
     ),
 )

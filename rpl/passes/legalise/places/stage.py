@@ -27,7 +27,7 @@ from rpl.passes.legalise.places.postures.seenjoints import seen_joints
 from rpl.passes.legalise.places.postures.turns import told_turns
 from rpl.passes.legalise.places.threepoints import three_point_arcs
 from rpl.passes.legalise.settings.joinedmoves import joined_moves
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "places",
@@ -55,5 +55,9 @@ STAGE = Stage(
         places_on_other_arm,
         configurations,
         told_turns,
+    ),
+    Clause(
+        statements="SetForNextMove",
+        system="posture_shoulder",
     ),
 )

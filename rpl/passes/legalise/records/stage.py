@@ -15,7 +15,7 @@ from rpl.passes.legalise.records.seenplaces import posed_places, seen_places
 from rpl.passes.legalise.records.unreadparameters import drop_unread_parameters
 from rpl.passes.legalise.records.watching import watching
 from rpl.passes.legalise.records.wholeturns import whole_turns
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "records",
@@ -32,5 +32,13 @@ STAGE = Stage(
         path_events,
         watching,
         arithmetic,
+    ),
+    Clause(
+        statements="OrderInterrupt ResumeLevel StopMotion",
+        functions="acos current_joints current_target distance euler_x euler_y euler_z frame_from_points "
+        "inverse joints_to_target magnitude offset rotation_zyx tool_offset transform",
+        system="null_frame",
+        types="NamedType SpeedType ToolType VectorType WorkObjectType ZoneType",
+        further=frozenset(("declaration RecordDeclaration",)),
     ),
 )

@@ -28,7 +28,7 @@ from rpl.passes.legalise.settings.speedshares import speed_shares
 from rpl.passes.legalise.settings.strengths import strengths
 from rpl.passes.legalise.settings.tooldata import tool_data
 from rpl.passes.legalise.settings.usualaccelerations import usual_accelerations
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "settings",
@@ -58,5 +58,11 @@ STAGE = Stage(
         settings_at_moves,
         scaled_override,
         stand_first,
+    ),
+    Clause(
+        system="advance base blend_distance blend_joint blend_rotation blend_speed circle_orientation "
+        "coordinated deceleration_percent external_speed interpolation joint_acceleration joint_speed "
+        "load orientation_mode path_acceleration path_configuration_check path_speed "
+        "swivel_acceleration swivel_speed tool twist_acceleration twist_speed",
     ),
 )

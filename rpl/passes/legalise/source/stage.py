@@ -42,7 +42,7 @@ from rpl.passes.legalise.source.ways.levels import levels_to_distances
 from rpl.passes.legalise.source.ways.splines import straight_splines, without_path_rules
 from rpl.passes.legalise.source.ways.turnedways import turned_ways
 from rpl.passes.legalise.source.wholetimes import whole_times
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 from rpl.passes.legalise.storage.unused import drop_untyped
 
 STAGE = Stage(
@@ -88,5 +88,10 @@ STAGE = Stage(
         constant_orientations,
         turned_ways,
         elementwise,
+    ),
+    Clause(
+        functions="displaced displaced_in_tool element_difference element_sum external_from_pulses "
+        "interpolate_pose joint_pulses joints_from_pulses pose_from_rotation_vector pose_of pose_sum "
+        "rotation_vector_x rotation_vector_y rotation_vector_z text_value with_external",
     ),
 )

@@ -5,7 +5,7 @@ that the target lacks becomes choices, and these become chains of conditions.
 from __future__ import annotations
 
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.passes.legalise.statements.enums import enums_to_constants
 from rpl.passes.legalise.statements.errors import check_errors
@@ -33,5 +33,19 @@ STAGE = Stage(
         references_as_copies,
         fit_loops,
         enums_to_constants,
+    ),
+    Clause(
+        statements="Raise Retry Switch TryNext",
+        functions="ceil character_code dimension floor format message_text number_text power round text_append "
+        "text_find text_map text_part text_upper trunc value_text",
+        procedures="format_into increment",
+        operators="& ** band bnot bor bxor xor",
+        system="error_number",
+        further=frozenset(
+            (
+                "declaration EnumDeclaration",
+                "handler of errors",
+            )
+        ),
     ),
 )
