@@ -11,6 +11,7 @@ from rpl.ir.walk import walk
 from rpl.project import read_sources
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
+from tests.refusing import refused
 
 WORKERS = """def p():
   count = 0
@@ -77,5 +78,7 @@ def test_what_starts_again_is_named_elsewhere(target: str) -> None:
     loop = "  i = 0\n  while i < 3:\n    run {name}()\n    i = i + 1\n  end"
     assert "task-started-again" in lost(loop.format(name="worker"), target)
     assert "second-task-lost" in lost(loop.format(name="tick"), target)
+    endless = WORKERS.format(lines=loop.format(name="tick"), wanted=1)
+    assert "second-task-lost" in dict(refused(endless, "urscript", target, "ur5e"))
     ended = "  i = 0\n  while i < 3:\n    h = run tick()\n    sleep(1)\n    kill h\n    i = i + 1\n  end"
     assert not {"task-started-again", "second-task-lost"} & lost(ended, target)

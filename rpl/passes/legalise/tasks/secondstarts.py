@@ -13,7 +13,9 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.rewriting.jumps import LOOPS
+from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
 
 MAYBE = code(
@@ -27,18 +29,28 @@ SURELY = code(
     Severity.LOSS,
     "task {name} never ends and is started here again; the target cannot run it twice",
     "keep each handle in a variable of its own",
+    stops=True,
 )
 
 
 @legalising(unless=lambda context: context.capabilities.carries_rules or not rules_of(context.source).task_instances)
 def second_starts(program: ir.Program, context: Context) -> ir.Program:
-    """For every target that knows a task by its routine; the program stays as it is."""
+    """For every target that knows a task by its routine."""
     routines = [routine for module in program.modules for routine in module.routines]
     endless = {one.name.lower() for one in routines if _is_endless(one.body)}
+    twice: set[int] = set()
     for start in dict.fromkeys(again for one in routines for body in bodies(one) for again in _again(body, False)):
-        told = SURELY if start.task.lower() in endless else MAYBE
-        context.diagnostics.report(told, start.origin, name=start.task)
-    return program
+        if start.task.lower() in endless:
+            twice.add(id(start))
+        else:
+            context.diagnostics.report(MAYBE, start.origin, name=start.task)
+
+    def change(one: ir.Statement) -> ir.Body:
+        if isinstance(one, ir.TaskControl) and id(one) in twice:
+            return (stopped(one, SURELY, context, name=one.task),)
+        return (inside(one, lambda inner: map_body(inner, change)),)
+
+    return edit_all(program, lambda body: map_body(body, change)) if twice else program
 
 
 def _is_endless(body: ir.Body) -> bool:
@@ -79,4 +91,4 @@ def _ends(body: ir.Body, task: str) -> bool:
     )
 
 
-__all__ = ["second_starts"]
+__all__ = ["SURELY", "second_starts"]
