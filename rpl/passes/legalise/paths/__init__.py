@@ -1,3 +1,1 @@
-"""Shapes of ways: arcs, circles, splines, how the wrist turns on them. Behind it each way is one that the target
-drives.
-"""
+"""Ways, and what a program does while the robot drives them. Behind it each way is one that the target drives."""

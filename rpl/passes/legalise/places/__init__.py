@@ -1,1 +1,3 @@
-"""Frames, targets and what is calculated with them. Behind it a place is made of what the target has."""
+"""Frames, targets, postures and what holds for the next move only. Behind it a move knows where it ends and how the
+arm comes there.
+"""

@@ -1,3 +1,3 @@
-"""What only the source's language has around a program: its prelude, marks of its editor, names of its own for neutral
-things.
+"""What only the source's language has: marks of its editor, names of its own for neutral things, its units, forms of
+places, texts and settings.
 """
