@@ -8,11 +8,7 @@ from rpl.passes.legalise.io.analogunits import analog_units
 from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
 from rpl.passes.legalise.io.flagdata import flags_as_data
 from rpl.passes.legalise.io.keptsettings import kept_settings
-from rpl.passes.legalise.io.pulsedoutputs import pulsed_outputs
-from rpl.passes.legalise.io.pulselevels import pulse_levels
 from rpl.passes.legalise.io.readoverrides import read_overrides
-from rpl.passes.legalise.io.restingwaits import resting_waits
-from rpl.passes.legalise.io.seldomlooks import seldom_looks
 from rpl.passes.legalise.io.signals import name_signals, number_signals
 from rpl.passes.legalise.io.timers import timers_to_clocks
 from rpl.passes.legalise.refusals import refuse
@@ -31,10 +27,6 @@ STAGE = Stage(
         name_signals,
         number_signals,
         groups_to_bits,
-        seldom_looks,
-        resting_waits,
-        pulsed_outputs,
-        pulse_levels,
     ),
     Clause(
         statements="ConnectInterrupt ControlInterrupt DeclareInterrupt",

@@ -5,6 +5,10 @@ that the target lacks becomes choices, and these become chains of conditions.
 from __future__ import annotations
 
 from rpl.passes.legalise.control.loops import fit_loops
+from rpl.passes.legalise.io.pulsedoutputs import pulsed_outputs
+from rpl.passes.legalise.io.pulselevels import pulse_levels
+from rpl.passes.legalise.io.restingwaits import resting_waits
+from rpl.passes.legalise.io.seldomlooks import seldom_looks
 from rpl.passes.legalise.stages import Clause, Stage
 from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.passes.legalise.statements.enums import enums_to_constants
@@ -22,7 +26,11 @@ STAGE = Stage(
     (
         check_errors,
         structure_of_made_jumps,
+        seldom_looks,
+        resting_waits,
         fit_waits,
+        pulsed_outputs,
+        pulse_levels,
         poll_waits,
         unroll_switches,
         decide_logic,
