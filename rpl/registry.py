@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, Protocol
 from rpl.diagnostics import Diagnostics
 from rpl.errors import UsageError
 from rpl.source import Source
+from rpl.tomlfile import read_toml
+from rpl.words import Words
 
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
@@ -208,6 +210,13 @@ def controller_text(name: str) -> str:
     dialect(name)  # an unknown name is refused there
     file = resources.files(_names(_DIALECTS)[name]).joinpath("controller.toml")
     return file.read_text(encoding="utf-8") if file.is_file() else ""
+
+
+@cache
+def words(name: str) -> Words:
+    """What `words.toml` in a dialect's folder says: the vocabulary that reader and writer of the language share."""
+    file = resources.files(_names(_DIALECTS)[name]).joinpath("words.toml")
+    return Words(read_toml(file.read_text(encoding="utf-8")))
 
 
 @cache

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rpl.diagnostics import Diagnostics
-from rpl.registry import Dialect, ReadResult
+from rpl.registry import Dialect, ReadResult, words
 from rpl.source import Source
 
 if TYPE_CHECKING:
@@ -83,17 +83,6 @@ def _notation() -> Notation:
     return NOTATION
 
 
-_SIGNALS = {
-    "digital_in": "$IN",
-    "digital_out": "$OUT",
-    "group_in": "$IN",
-    "group_out": "$OUT",
-    "analog_in": "$ANIN",
-    "analog_out": "$ANOUT",
-    "flag": "$FLAG",
-}
-
-
 def _flag_terms(arm: str) -> dict[str, tuple[tuple[int, str, int], ...]]:
     """S and T, bit by bit."""
     status = ((1, "behind_axis1", 0), (2, "elbow_above_stretched", 0), (4, "wrist_negative", 0))
@@ -102,7 +91,8 @@ def _flag_terms(arm: str) -> dict[str, tuple[tuple[int, str, int], ...]]:
 
 def _signal_name(kind: str, number: int) -> str:
     """How KRL spells a physical signal."""
-    return f"{_SIGNALS[kind]}[{number}]"
+    known = words("krl")
+    return f"{(known.pairs('signals') | known.pairs('groups'))[kind]}[{number}]"
 
 
 DIALECT = Dialect(

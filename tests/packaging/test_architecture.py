@@ -23,7 +23,7 @@ LEVELS = [
     ["registry"],
     ["ir"],
     ["motionmodel"],
-    ["diagnostics", "source", "errors", "showing", "depth", "tomlfile"],
+    ["diagnostics", "source", "errors", "showing", "depth", "tomlfile", "words"],
 ]
 LEVEL = {room: number for number, rooms in enumerate(LEVELS) for room in rooms}
 MOST_LINES, MOST_FUNCTION_LINES = 600, 60

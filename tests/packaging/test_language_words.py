@@ -1,0 +1,68 @@
+"""The words of a language stand once, in `words.toml` of its dialect: neither room spells them in tables of its own."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from rpl import registry
+from rpl.words import Words, lowered, spelled
+
+ROOT = Path(__file__).parents[2]
+LANGUAGES = sorted(file.parent.name for file in ROOT.glob("dialects/*/words.toml"))
+
+
+@cache
+def texts(folder: str) -> frozenset[str]:
+    """All texts in the code of a folder, in small letters."""
+    trees = [ast.parse(file.read_text("utf-8")) for file in (ROOT / folder).rglob("*.py")]
+    constants = (node.value for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Constant))
+    return frozenset(word.lower() for text in constants if isinstance(text, str) for word in (text, *text.split()))
+
+
+def own_words(value: object) -> Iterator[str]:
+    """Words of the language in a table: the keys of its rows, and lists of words."""
+    if isinstance(value, str):
+        yield from value.split()
+    elif isinstance(value, dict):
+        for key, inner in value.items():
+            yield from own_words(inner) if isinstance(inner, dict) else (key,)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_word_stands_in_both_rooms_again(language: str) -> None:
+    """Words that the core knows too are neutral ones; reserved words shape statements, which each room spells."""
+    table = registry.words(language).table
+    own = {word.lower() for key, value in table.items() if key != "reserved" for word in own_words(value)}
+    doubled = own & texts(f"dialects/{language}") & texts(f"postprocessors/{language}")
+    assert doubled - texts("rpl") == set()
+
+
+def test_what_krl_writes_it_reads_as_the_same() -> None:
+    from dialects.krl import tables as reader
+    from postprocessors.krl import tables as writer
+
+    parts = {f"{name}.{part}": row for name, inner in reader.STRUCTURES.items() for part, row in inner.items()}
+    variables = reader.SCALARS | reader.INDEXED | parts
+    for neutral, (name, unit) in writer.SYSTEM.items():
+        assert variables[name.lower()] == (neutral, unit)
+    assert all(reader.FUNCTIONS[name.lower()] == neutral for neutral, name in writer.FUNCTIONS.items())
+    assert {name.lower() for name in writer.PROCEDURES.values()} <= reader.TEXT_PROCEDURES.keys()
+    assert {name.lower() for name in writer.MESSAGES.values()} <= reader.MESSAGES.keys()
+
+
+def test_the_first_of_several_words_is_the_one_that_is_written() -> None:
+    pairs = {"$A": "a", "$B": "b", "$A_MES": "a"}
+    assert spelled(pairs) == {"a": "$A", "b": "$B"}
+    assert lowered(pairs) == {"$a": "a", "$b": "b", "$a_mes": "a"}
+
+
+@pytest.mark.parametrize("table", [{"x": 1}, {"x": {"y": 1}}, {"x": {"y": {"z": 1}}}])
+def test_a_table_of_another_form_is_told(table: dict[str, object]) -> None:
+    for read in (Words(table).listed, Words(table).pairs, Words(table).nested):
+        with pytest.raises(TypeError, match="x"):
+            read("x")
