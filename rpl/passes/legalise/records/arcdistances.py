@@ -22,10 +22,10 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, usage_of
 from rpl.passes.legalise.records.pathevents import in_base
 from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits, tidy
-from rpl.passes.legalise.rewriting.earlyways import by_way, is_early, number_with_sign
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.library import function, minus, number, plus, times
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
@@ -38,11 +38,13 @@ STRAIGHT = code(
     "the target measures straight from the end of an arc (or its start) to a place on its way; the program computes how"
     " far that is",
 )
-BY_WAY = code(
-    "path-event-by-way",
-    Severity.WARNING,
-    "a time before the end of an arc is told by the way that is left then at the programmed speed; at a lower speed it"
-    " comes earlier",
+TIMED = code(
+    "path-event-timed-on-arc",
+    Severity.LOSS,
+    "an action on an arc comes a time before or behind a place on its way; the target knows only how far straight the"
+    " tool is from the arc's ends",
+    "give the place on the arc as a constant distance from its end, or the action to a move of its own",
+    stops=True,
 )
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
 _REAL = ir.RealType()
@@ -118,27 +120,31 @@ class _Arcs:
         cut = self.context.capabilities.motion.cut_from_mm and written(move, given, self.editor, self.shared.unchanged)
         if cut and ends_known(self.last, move, self.editor, self.shared.unchanged):
             return (*before, move)  # the writer cuts the arc itself
-        move, before, speed = self.early(move, before)
-        return (*speed, *self.straight(move, before))
+        stops, move, before = self.without(move, before)
+        return (*stops, *self.straight(move, before))
 
-    def early(self, move: ir.Move, before: list[ir.Trigger]) -> tuple[ir.Move, list[ir.Trigger], ir.Body]:
-        """Times before the end of an arc as distances, and what they need in front of it."""
-        triggers = (*before, *move.triggers)
-        if not any(isinstance(one, ir.Trigger) and is_early(one, move) for one in triggers):
-            return move, before, ()
-        assert move.speed is not None and move.speed.path is not None  # is_early has looked
-        fast, steps = plain(move.speed.path), list[ir.Statement]()
-        if number_with_sign(fast) is None and not isinstance(fast, ir.Name):
-            kept = self.temporary("fast", _REAL)
-            steps.append(ir.Assign(kept, fast, origin=tidy(move.origin)))
-            fast = kept
-        self.context.diagnostics.report(BY_WAY, move.origin)
-        ways = [
-            by_way(one, move, fast, self.context) if isinstance(one, ir.Trigger) and is_early(one, move) else one
-            for one in triggers
-        ]
-        earlier = [one for one in ways[: len(before)] if isinstance(one, ir.Trigger)]
-        return replace(move, triggers=tuple(ways[len(before) :])), earlier, tuple(steps)
+    def without(self, move: ir.Move, before: list[ir.Trigger]) -> tuple[ir.Body, ir.Move, list[ir.Trigger]]:
+        """The stops for actions that are refused on an arc, and the move with the others."""
+        if move.kind != "circular":
+            return (), move, before
+        own = [one for one in move.triggers if isinstance(one, ir.Trigger)]
+        refused = [one for one in (*before, *own) if self.is_timed(one, move)]
+        if not refused:
+            return (), move, before
+        stops = tuple(stopped(one, TIMED, self.context) for one in refused)
+        kept = tuple(one for one in move.triggers if one not in refused)
+        return stops, replace(move, triggers=kept), [one for one in before if one not in refused]
+
+    def is_timed(self, trigger: ir.Trigger, move: ir.Move) -> bool:
+        """Does it come a time before or behind a place on the way? At the start, and behind an end where the robot
+        stands, the way does not matter."""
+        delay = None if trigger.delay is None else self.number(trigger.delay)
+        if trigger.delay is None or delay == 0.0:
+            return False
+        at_point = self.known(trigger) == 0.0 and delay is not None
+        stands = isinstance(move.blend, ir.BlendStop | None)
+        late = trigger.reference == "end" and stands and delay is not None and delay > 0.0
+        return not (at_point and (trigger.reference == "start" or late))
 
     def straight(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
         own = [one for one in move.triggers if isinstance(one, ir.Trigger)]
@@ -165,9 +171,10 @@ class _Arcs:
 
     def known(self, trigger: ir.Trigger) -> float | None:
         """The distance in mm, where it is a constant."""
-        if trigger.distance is None:
-            return 0.0
-        return constant_number(plain(trigger.distance), self.editor.scope, self.shared.unchanged)
+        return 0.0 if trigger.distance is None else self.number(trigger.distance)
+
+    def number(self, value: ir.Expression) -> float | None:
+        return constant_number(plain(value), self.editor.scope, self.shared.unchanged)
 
     # ---- the arc
 
@@ -327,4 +334,4 @@ def _pose(target: ir.Expression) -> ir.Expression:
     return ir.Builtin("pose_of", (target,))
 
 
-__all__ = ["arc_distances", "ends_known", "written"]
+__all__ = ["TIMED", "arc_distances", "ends_known", "written"]

@@ -7,15 +7,12 @@ the passes that give each move its settings, because speed and corner decide whe
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes import rigid
 from rpl.passes.capabilities import TriggerRule, Watched
-from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.records.pathwatches import at_present_speed, ramp_s
@@ -26,7 +23,6 @@ from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typing import type_of
-from rpl.passes.values import Target
 from rpl.source import Origin
 
 WATCHED = code(
@@ -82,7 +78,6 @@ class _Way:
     ends_in: ir.Expression | None
     speed: ir.Expression | None
     acceleration: float
-    radius: float | None
 
 
 @dataclass(slots=True)
@@ -280,7 +275,7 @@ class _Events:
             self.context.diagnostics.report(ESTIMATED, way.move.origin)
             return self.estimated(way, size, -delay)
         if delay < 0.0:
-            size = _sum(size, _along_arc(self.braking(way, -delay, before), way.radius))
+            size = _sum(size, self.braking(way, -delay, before))
         steps: list[ir.Statement] = []
         if way.move.kind == "circular" and _number(size) != 0.0:  # an arc may begin nearer to its end than that
             steps.append(_until(ir.Binary(">=", left, size), moving))
@@ -366,25 +361,11 @@ class _Events:
         own = move.speed.path_acceleration if move.speed is not None else None
         known = _number(own) if own is not None else None
         acceleration = known if known is not None else float(rate)
-        radius = self.radius(move, last)
-        return _Way(move, start, end, begins_in, ends_in, speed, acceleration, radius)
+        return _Way(move, start, end, begins_in, ends_in, speed, acceleration)
 
     def place(self, move: ir.Move, target: ir.Expression) -> ir.Expression:
         """A target in the robot's base."""
         return in_base(move, target, type_of(target, self.editor.scope))
-
-    def radius(self, move: ir.Move, last: ir.Move | None) -> float | None:
-        """Of an arc whose three points are constants, in mm."""
-        if move.kind != "circular" or move.via is None or last is None:
-            return None
-        found = []
-        for one, target in ((last, last.target), (move, move.via), (move, move.target)):
-            value = constant(self.place(one, target), self.editor.scope)
-            pose = value.pose if isinstance(value, Target) else value
-            if not isinstance(pose, rigid.Pose):
-                return None
-            found.append(pose.position)
-        return _radius(found)
 
 
 def in_base(move: ir.Move, target: ir.Expression, type: ir.Type | None) -> ir.Expression:
@@ -394,22 +375,6 @@ def in_base(move: ir.Move, target: ir.Expression, type: ir.Type | None) -> ir.Ex
     if isinstance(type, ir.JointsType):
         return ir.Builtin("joints_to_target", (target,))
     return target if move.frame is None else ir.Binary(":", move.frame, target)
-
-
-def _radius(points: list[rigid.Vector]) -> float | None:
-    (a, b, c) = [(one.x, one.y, one.z) for one in points]
-    sides = (math.dist(b, c), math.dist(a, c), math.dist(a, b))
-    half = sum(sides) / 2.0
-    area = half * (half - sides[0]) * (half - sides[1]) * (half - sides[2])
-    return sides[0] * sides[1] * sides[2] / (4.0 * math.sqrt(area)) if area > 1e-9 else None
-
-
-def _along_arc(distance: ir.Expression, radius: float | None) -> ir.Expression:
-    """How far two points of an arc are from each other that lie that far apart along it."""
-    known = _number(distance)
-    if radius is None or known is None:
-        return distance
-    return ir.RealLiteral(_short(2.0 * radius * math.sin(min(known / (2.0 * radius), math.pi / 2.0))))
 
 
 def _corner(blend: ir.Blend | None) -> ir.Expression | None:

@@ -1,8 +1,4 @@
-"""A time before the end of an arc as the way that is left then, for targets that look where the tool is.
-
-On an arc the tool does not come straight nearer to the end as fast as it goes: what is told from its distance and speed
-would act too early. The programmed speed says the way along the arc; how far that is straight `arcdistances` works out.
-"""
+"""A time before the end of a straight move as the way left then, where the target counts such a time otherwise."""
 
 from __future__ import annotations
 
@@ -17,21 +13,13 @@ from rpl.passes.legalise.settings.movesettings import plain
 _USUAL_MM_S2 = 5000.0  # path acceleration where the target's rules name none
 
 
-def is_early(trigger: ir.Trigger, move: ir.Move) -> bool:
-    """Does it come a constant time before the end of an arc whose speed along it is told?"""
-    seconds = number_with_sign(trigger.delay)
-    told = move.speed is not None and move.speed.path is not None and move.speed.duration is None
-    arc = move.kind == "circular" and move.relative is None and move.swept is None
-    return arc and told and trigger.reference == "end" and seconds is not None and seconds < 0.0
-
-
 def by_way(trigger: ir.Trigger, move: ir.Move, fast: ir.Expression, context: Context) -> ir.Trigger:
     """The early action by its distance from the end, `fast` being the speed in mm/s: the move brakes evenly from its
     speed where it stops there, or goes on with it into a corner or to a place farther from the end."""
-    seconds = -(number_with_sign(trigger.delay) or 0.0)
-    rate, known = path_acceleration(move, context), number_of(fast)
+    seconds = -(_number_with_sign(trigger.delay) or 0.0)
+    rate, known = _path_acceleration(move, context), number_of(fast)
     before = ir.RealLiteral(0.0) if trigger.distance is None else plain(trigger.distance)
-    distance = number_with_sign(before)
+    distance = _number_with_sign(before)
     brakes = isinstance(move.blend, ir.BlendStop | None) and distance == 0.0
     way: ir.Expression
     if known is not None:
@@ -50,7 +38,7 @@ def by_way(trigger: ir.Trigger, move: ir.Move, fast: ir.Expression, context: Con
     return replace(trigger, delay=None, distance=minus(before, way))
 
 
-def path_acceleration(move: ir.Move, context: Context) -> float:
+def _path_acceleration(move: ir.Move, context: Context) -> float:
     """In mm/s2, what the move says or the target's controller usually has."""
     speed = move.speed
     own = number_of(speed.path_acceleration) if speed is not None else None
@@ -59,16 +47,16 @@ def path_acceleration(move: ir.Move, context: Context) -> float:
     return rate if not percent else rate * percent / 100.0
 
 
-def number_with_sign(value: ir.Expression | None) -> float | None:
+def _number_with_sign(value: ir.Expression | None) -> float | None:
     """A number that is written there, in base units, with its sign."""
     match value:
         case ir.Unary(op="-", operand=operand):
-            inner = number_with_sign(operand)
+            inner = _number_with_sign(operand)
             return None if inner is None else -inner
         case ir.Quantity(value=inner_value, unit=unit):
-            inner = number_with_sign(inner_value)
+            inner = _number_with_sign(inner_value)
             return None if inner is None else inner * ir.UNITS[unit]
     return number_of(value)
 
 
-__all__ = ["by_way", "is_early", "path_acceleration"]
+__all__ = ["by_way"]
