@@ -143,3 +143,41 @@ def test_a_routine_that_is_called_either_way_asks_for_it(target: str) -> None:
     for program, start in ((read.program, "main"), (back.program, entry)):
         result = run_program(program, "adept_viper_s650", entry=start)
         assert result.fault is None and [value for _, _, value in result.outputs] == [True]
+
+
+TRAPPED = """.PROGRAM main()
+ CALL corners()
+ MOVES TRANS(330,0,260,0,180,0)
+ SIGNAL 1
+ BREAK
+ REACTE trap
+ MOVES TRANS(330,20,260,0,180,0)
+ BREAK
+ REACTE
+.END
+.PROGRAM corners()
+ CPOFF ALWAYS
+ MOVES TRANS(330,50,260,0,180,0)
+ CPON ALWAYS
+.END
+.PROGRAM trap()
+ n = n+1
+ RETURNE
+.END
+"""
+
+
+@pytest.mark.parametrize(
+    ("target", "move", "output"),
+    [("krl", "LIN ", "$OUT_C[1]"), ("rapid", "MoveL ", "SetDO"), ("inform", "MOVL ", "DOUT")],
+)
+def test_a_routine_for_errors_leaves_known_whether_moves_are_joined(target: str, move: str, output: str) -> None:
+    """Each move stands there once, and the output behind the second is switched where that move begins."""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("p.v2", TRAPPED)], "vplus", diagnostics)
+    files = translate_program(read, target, "adept_viper_s650", None, diagnostics).files
+    lines = [line.strip() for file in files for line in file.data.decode().splitlines()]
+    assert len([line for line in lines if line.startswith(move)]) == 3
+    start = next(at for at, line in enumerate(lines) if line.startswith(output))
+    assert any(line.startswith(move) and "20" not in line for line in lines[start:])
+    assert "begun-output" not in [one.code.name for one in diagnostics]

@@ -1,12 +1,12 @@
 """Handlers, raised errors and their numbers; then the source's own routines and data come along (its prelude), because
-errors have their names from it, and jumps out of handlers become structure.
+errors have their names from it, and jumps out of handlers become structure. A routine for all errors stays one until
+the settings of moves are known (places).
 """
 
 from __future__ import annotations
 
 from rpl.passes.legalise.errors.errornumbers import error_numbers
 from rpl.passes.legalise.errors.errorplaces import unreachable_moves
-from rpl.passes.legalise.errors.errorroutines import error_routines
 from rpl.passes.legalise.errors.errortexts import error_texts
 from rpl.passes.legalise.errors.interruptplaces import interrupt_places
 from rpl.passes.legalise.errors.ownrecords import apart_from_neutral_records
@@ -28,6 +28,5 @@ STAGE = Stage(
         used_elements,
         possible_cases,
         labels_to_structure,
-        error_routines,
     ),
 )

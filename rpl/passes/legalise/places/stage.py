@@ -1,9 +1,12 @@
 """Frames, targets and postures, and the settings that hold for the next move only, which decide where it ends. They
-stand behind errors, because places of the prelude are places too; before paths, because a way needs its ends.
+stand behind errors, because places of the prelude are places too; before paths, because a way needs its ends. A routine
+for all errors becomes handlers behind those settings: a handler passes errors on where no such routine is set, and that
+looks like a way out of a routine with what it has set so far, so that moves behind its calls would find either.
 """
 
 from __future__ import annotations
 
+from rpl.passes.legalise.errors.errorroutines import error_routines
 from rpl.passes.legalise.places.arcpoints import whole_arc_points
 from rpl.passes.legalise.places.circles import circle_rules
 from rpl.passes.legalise.places.destinations import destinations
@@ -39,6 +42,7 @@ STAGE = Stage(
         joined_moves,
         move_times,
         turning_times,
+        error_routines,
         seen_joints,
         near_joints,
         known_joints,
