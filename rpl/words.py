@@ -27,6 +27,16 @@ class Words:
         """A table of texts, in its order."""
         return _texts(key, self.table[key])
 
+    def numbers(self, key: str) -> dict[str, int | float]:
+        """A table of numbers, in its order."""
+        table = self.table[key]
+        if not isinstance(table, dict):
+            raise TypeError(f"{key} is no table")
+        found = {name: value for name, value in table.items() if isinstance(value, int | float)}
+        if len(found) < len(table):
+            raise TypeError(f"{key} holds more than numbers")
+        return found
+
     def nested(self, key: str) -> dict[str, dict[str, str]]:
         """A table of tables of texts, in its order."""
         table = self.table[key]

@@ -18,15 +18,13 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.source import NOWHERE, Origin
 
 from .types import NUM
+from .words import WORDS
 
 # buttondata -> keys in their order, and what the controller gives for each (constants resOK ...).
-BUTTONS: dict[str, tuple[tuple[str, int], ...]] = {
-    "btnok": (("OK", 1),),
-    "btnabrtrtryign": (("Abort", 2), ("Retry", 3), ("Ignore", 4)),
-    "btnokcancel": (("OK", 1), ("Cancel", 5)),
-    "btnretrycancel": (("Retry", 3), ("Cancel", 5)),
-    "btnyesno": (("Yes", 6), ("No", 7)),
-    "btnyesnocancel": (("Yes", 6), ("No", 7), ("Cancel", 5)),
+_NUMBERS = WORDS.numbers("numbers")
+BUTTONS = {
+    name.lower(): tuple((key, int(_NUMBERS[f"res{key}"])) for key in keys.split())
+    for name, keys in WORDS.pairs("buttons").items()
 }
 _LOOKS = frozenset(("wrap", "icon", "image", "header", "message", "msgarray", "defaultbtn"))
 _KNOWN = {

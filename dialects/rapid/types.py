@@ -3,30 +3,15 @@
 from __future__ import annotations
 
 from rpl import ir
+from rpl.words import spelled
 
-from .words import words
+from .words import WORDS
 
 NUM = ir.RealType()
-SIGNALS = {
-    "signaldi": "digital_in",
-    "signaldo": "digital_out",
-    "signalai": "analog_in",
-    "signalao": "analog_out",
-    "signalgi": "group_in",
-    "signalgo": "group_out",
-}
-# Aliases of num and byte in the installed types: numbers with a purpose.
-_NUMBERS = words(
-    """num dnum byte errnum errtype errdomain btnres icondata buttondata tpnum opnum symnum iounit_state tunetype
-    paridnum paridvalidnum loadidnum handler_type sensorstate triggmode busstate switchtype opmode runmode dionum
-    aiotrigg opcalc"""
-)
-# Types without components. An installed record that is not described here stays a reference to something unknown.
-_VENDOR = words(
-    """socketdev socketstatus iodev rawbytes taskid syncident identno wztemporary wzstationary shapedata mecunit
-    trapdata corrdescr dir egmident cameradev sensor loadsession rmqmessage
-    rmqslot speedlimdata"""
-)
+SIGNALS = spelled(WORDS.pairs("signal_types"))
+_NUMBERS = WORDS.listed("number_types")
+# An installed record that is not described here stays a reference to something unknown.
+_VENDOR = WORDS.listed("vendor_types")
 
 TYPES: dict[str, ir.Type] = {
     **dict.fromkeys(_NUMBERS, NUM),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl import ir
+from rpl import ir, registry
 from rpl.writing.precedence import Operator, OperatorTable
 
 
@@ -10,6 +10,8 @@ def words(text: str) -> frozenset[str]:
     """The words of a list."""
     return frozenset(text.split())
 
+
+WORDS = registry.words("rapid")
 
 # Neutral system variable -> component of the controller's own data.
 SYSTEM_RECORDS: dict[str, str] = {
@@ -23,12 +25,11 @@ SYSTEM_RECORDS: dict[str, str] = {
 }
 
 # Predefined buttons of a message box: the keys they show, and the number that each gives.
-BUTTONS: dict[str, tuple[tuple[str, int], ...]] = {
-    "btnAbrtRtryIgn": (("Abort", 2), ("Retry", 3), ("Ignore", 4)),
-    "btnOKCancel": (("OK", 1), ("Cancel", 5)),
-    "btnRetryCancel": (("Retry", 3), ("Cancel", 5)),
-    "btnYesNo": (("Yes", 6), ("No", 7)),
-    "btnYesNoCancel": (("Yes", 6), ("No", 7), ("Cancel", 5)),
+_NUMBERS = WORDS.numbers("numbers")
+BUTTONS = {
+    name: tuple((key, int(_NUMBERS[f"res{key}"])) for key in keys.split())
+    for name, keys in WORDS.pairs("buttons").items()
+    if " " in keys  # a message with one key asks nothing
 }
 
 # IR type class -> type name. Types with parameters (signals, vendor types, references) are named in types.py.
@@ -55,15 +56,7 @@ TYPE_NAMES: dict[type, str] = {
     ir.TriggerType: "triggdata",
     ir.CharType: "string",
 }
-SIGNAL_NAMES = {
-    "digital_in": "signaldi",
-    "digital_out": "signaldo",
-    "analog_in": "signalai",
-    "analog_out": "signalao",
-    "group_in": "signalgi",
-    "group_out": "signalgo",
-}
-
+SIGNAL_NAMES = WORDS.pairs("signal_types")
 PREFIXES = {kind: name.removeprefix("signal") for kind, name in SIGNAL_NAMES.items()}
 READERS = {
     "digital_in": "DInput",
@@ -149,35 +142,11 @@ OPERATOR_TABLE = OperatorTable(
 # BitAnd and its kin take bytes only, so operations on whole numbers are not among them.
 OPERATORS = frozenset((*_BINARY, ":", "**", "not"))
 
-RESERVED = words(
-    """alias and backward case connect const default div do else elseif endfor endfunc endif endmodule endproc
-    endrecord endtest endtrap endwhile error exit false for from func goto if inout local mod module nostepin not
-    noview or pers proc raise readonly record retry return step sysmodule task test then to trap true trynext undo
-    var viewonly while with xor"""
-)
-
-_SPEEDS = (5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800)
-_FAST = (1000, 1500, 2000, 2500, 3000, 4000, 5000, 6000, 7000)
+RESERVED = frozenset(word.lower() for word in (*WORDS.listed("reserved"), *WORDS.listed("module_attributes")))
 # The values of speeddata and zonedata that have a predefined name.
 SPEED_NAMES: dict[tuple[float, ...], str] = {
-    (float(path), 500.0, 5000.0, 1000.0): f"v{path}" for path in (*_SPEEDS, *_FAST)
-}
-_ZONES = {
-    "z0": (0.3, 0.3, 0.3, 0.03, 0.3, 0.03),
-    "z1": (1, 1, 1, 0.1, 1, 0.1),
-    "z5": (5, 8, 8, 0.8, 8, 0.8),
-    "z10": (10, 15, 15, 1.5, 15, 1.5),
-    "z15": (15, 23, 23, 2.3, 23, 2.3),
-    "z20": (20, 30, 30, 3, 30, 3),
-    "z30": (30, 45, 45, 4.5, 45, 4.5),
-    "z40": (40, 60, 60, 6, 60, 6),
-    "z50": (50, 75, 75, 7.5, 75, 7.5),
-    "z60": (60, 90, 90, 9, 90, 9),
-    "z80": (80, 120, 120, 12, 120, 12),
-    "z100": (100, 150, 150, 15, 150, 15),
-    "z150": (150, 225, 225, 23, 225, 23),
-    "z200": (200, 300, 300, 30, 300, 30),
+    (float(path), 500.0, 5000.0, 1000.0): f"v{path}" for path in WORDS.listed("speeds")
 }
 ZONE_NAMES: dict[tuple[float, ...], str] = {
-    (0.0, *(float(size) for size in sizes)): name for name, sizes in _ZONES.items()
+    (0.0, *map(float, sizes.split())): name for name, sizes in WORDS.pairs("zones").items()
 }
