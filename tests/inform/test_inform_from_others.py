@@ -416,8 +416,7 @@ def test_actions_on_a_path_with_a_computed_end_stand_behind_computed_points() ->
 
 
 LOOKED_FOR = """DEF one()
-DECL FRAME F, V
-$CIRC_TYPE=#BASE
+DECL FRAME F
 PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
 TRIGGER WHEN DISTANCE=1 DELAY=-200 DO $OUT[1]=TRUE
 TRIGGER WHEN DISTANCE=1 DELAY=-100 DO $OUT[2]=TRUE
@@ -434,30 +433,21 @@ F.Z=F.Z-50
 TRIGGER WHEN DISTANCE=1 DELAY=-50 DO $OUT[5]=TRUE
 PTP F
 $OUT[6]=TRUE
-$VEL.CP=0.1
-LIN F
-F.Y=F.Y+50
-V=F
-V.Y=V.Y-25
-V.X=V.X-25
-TRIGGER WHEN PATH=-20 DELAY=0 DO $OUT[7]=TRUE
-CIRC V, F
-$OUT[8]=TRUE
 END
 """
 
 
-def test_actions_before_the_end_of_a_joint_move_or_a_computed_arc_are_done_while_it_goes_on() -> None:
+def test_actions_before_the_end_of_a_joint_move_are_done_while_it_goes_on() -> None:
     """The times are those of the source but for some looks."""
     jobs, diagnostics, on = jobs_of("krl", LOOKED_FOR, "kuka_kr6r900sixx")
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
-    assert on == {3, 4, 5, 6, 7, 8}
+    assert on == {3, 4, 5, 6}
     assert "path-event-looked-for" in codes(diagnostics, Severity.WARNING)
     lines = jobs["ONE"]
     begun = [at for at, line in enumerate(lines) if line.endswith("NWAIT")]
-    assert [lines[at].split()[0] for at in begun] == ["MOVJ", "MOVJ", "MOVJ", "MOVC"]
+    assert [lines[at].split()[0] for at in begun] == ["MOVJ", "MOVJ", "MOVJ"]
     assert not [line for line in lines if line.count("NWAIT") > 1]
-    assert lines.count("CWAIT") == 4
+    assert lines.count("CWAIT") == 3
 
 
 IN_CORNERS = """MODULE M

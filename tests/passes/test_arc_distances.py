@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from refusing import refused
 
-from rpl.diagnostics import Diagnostics
+from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
@@ -44,23 +45,33 @@ END PROCEDURE
 PLACE = "pose {{x: {r} * cos({angle}), y: {r} * sin({angle}), z: 150, a: 0, b: 180, c: 0}}"
 
 
-@pytest.mark.parametrize("target", ["vplus", "urscript"])
-@pytest.mark.parametrize("computed", [False, True])
-@pytest.mark.parametrize("case", CASES)
-def test_the_place_is_found(case: str, computed: bool, target: str) -> None:
+def program(case: str, parameter: str, given: str) -> str:
+    """parameter: `r` where the points of the arc are computed from it."""
     reference, distance, angle, at = CASES[case]
-    if computed and ("far" in case or (target == "vplus" and "half" in case)):
-        pytest.skip("how far is not known before; nor how the tool turns on so long an arc")
-    words = {"r": "r" if computed else "120.0", "parameter": "r" if computed else "unused"}
-    words["given"] = "(far) mm" if computed else f"{distance} mm"
+    words = {"r": "r" if parameter == "r" else "120.0", "parameter": parameter}
     for name, place in (("via", angle / 2), ("end", angle)):
         words[name] = PLACE.format(r=words["r"], angle=place)
-    text = PROGRAM.format(reference=reference, distance=distance, at=at, **words)
+    given = given.format(distance=distance)
+    return PROGRAM.format(reference=reference, distance=distance, at=at, given=given, **words)
+
+
+@pytest.mark.parametrize("target", ["vplus", "urscript"])
+@pytest.mark.parametrize("case", CASES)
+def test_the_place_is_found(case: str, target: str) -> None:
+    text = program(case, "unused", "{distance} mm")
     source = read_sources([source_from_text("main.rpl", text)], "rpl", Diagnostics())
     assert len(run_program(source.program, ARM, None, "main").outputs) == 1
     found = Diagnostics()
     translation = translate_program(source, target, ARM, None, found)
-    assert ("path-event-straight" in [item.code.name for item in found]) == computed
+    assert not found.of(Severity.LOSS)
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
     result = run_program(back.program, ARM, None, translation.renamed.get("main", "main"))
     assert result.status == "finished" and len(result.outputs) == 1
+
+
+@pytest.mark.parametrize("target", ["vplus", "urscript", "inform"])
+@pytest.mark.parametrize(("parameter", "given"), [("r", "{distance} mm"), ("unused", "(far) mm")])
+def test_a_place_that_the_run_decides_is_refused(parameter: str, given: str, target: str) -> None:
+    text = program("from the end", parameter, given)
+    line = text.splitlines().index(next(one for one in text.splitlines() if "TRIGGER" in one)) + 1
+    assert refused(text, "rpl", target, ARM) == [("path-event-computed-on-arc", line)]

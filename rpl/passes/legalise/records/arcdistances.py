@@ -1,18 +1,18 @@
 """Places on the way of an arc for targets that look how far the tool is straight from the arc's end (or its start).
 
 Two points of an arc that lie w apart along it are 2 R sin(w / 2R) from each other. Where the three points of the arc
-are constants, the number is; else the program computes it in front of the move. Behind the passes that give each move
-its tool and frame, and before those that take positions and functions apart.
+and the place are constants, so is that number; else the action is refused. Behind the passes that give each move its
+tool and frame, and before those that take positions and functions apart.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
+from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.capabilities import PathRule
@@ -21,22 +21,22 @@ from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, usage_of
 from rpl.passes.legalise.records.pathevents import in_base
-from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits, tidy
+from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.legalise.rewriting.library import function, minus, number, plus, times
 from rpl.passes.legalise.rewriting.stopping import stopped
-from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typing import type_of
 from rpl.passes.values import Target
 
 STRAIGHT = code(
-    "path-event-straight",
-    Severity.WARNING,
-    "the target measures straight from the end of an arc (or its start) to a place on its way; the program computes how"
-    " far that is",
+    "path-event-computed-on-arc",
+    Severity.LOSS,
+    "the target measures straight from the end of an arc (or its start) to a place on its way, and how far that is only"
+    " the run knows",
+    "give the points of the arc and the place as constants, or end a move at the place",
+    stops=True,
 )
 TIMED = code(
     "path-event-timed-on-arc",
@@ -47,7 +47,6 @@ TIMED = code(
     stops=True,
 )
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
-_REAL = ir.RealType()
 _WITHIN = 0.999  # of the arc: a place farther than that from one end is at the other
 
 
@@ -58,30 +57,21 @@ def arc_distances(program: ir.Program, context: Context) -> ir.Program:
     if not any(isinstance(node, ir.Trigger) for node in nodes):
         return program
     unchanged = Unchanged(usage_of(program).assigned)
-    shared = _Shared(closure(program, _MOTION), unchanged, context.fresh("rpl_straight"))
+    drivers = closure(program, _MOTION)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, _Arcs(context, editor, shared).body)
+        return edit_bodies(routine, _Arcs(context, editor, drivers, unchanged).body)
 
-    done = edit_routines(program, context, work)
-    return with_support(done, context, (), (_function(shared.name),)) if shared.used else done
-
-
-@dataclass(slots=True)
-class _Shared:
-    drivers: frozenset[str]
-    unchanged: Unchanged
-    name: str
-    used: bool = False
+    return edit_routines(program, context, work)
 
 
 @dataclass(slots=True)
 class _Arcs:
     context: Context
     editor: Editor
-    shared: _Shared
+    drivers: frozenset[str]
+    unchanged: Unchanged
     last: ir.Move | None = None  # the move before, as far as it is known and nothing has changed its data
-    temporaries: dict[str, ir.Name] = field(default_factory=dict)
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
@@ -108,7 +98,7 @@ class _Arcs:
             done.extend(waiting)
             waiting = []
             done.append(inside(statement, self.body))
-            if moves_or_waits(statement, self.shared.drivers):
+            if moves_or_waits(statement, self.drivers):
                 self.last = None
         done.extend(waiting)
         self.last = outer
@@ -117,21 +107,21 @@ class _Arcs:
 
     def move(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
         given = [one for one in (*before, *move.triggers) if isinstance(one, ir.Trigger)]
-        cut = self.context.capabilities.motion.cut_from_mm and written(move, given, self.editor, self.shared.unchanged)
-        if cut and ends_known(self.last, move, self.editor, self.shared.unchanged):
+        cut = self.context.capabilities.motion.cut_from_mm and written(move, given, self.editor, self.unchanged)
+        if cut and ends_known(self.last, move, self.editor, self.unchanged):
             return (*before, move)  # the writer cuts the arc itself
-        stops, move, before = self.without(move, before)
+        if move.kind != "circular":
+            return (*before, move)
+        stops, move, before = self.without(move, before, [one for one in given if self.is_timed(one, move)], TIMED)
         return (*stops, *self.straight(move, before))
 
-    def without(self, move: ir.Move, before: list[ir.Trigger]) -> tuple[ir.Body, ir.Move, list[ir.Trigger]]:
+    def without(
+        self, move: ir.Move, before: list[ir.Trigger], refused: list[ir.Trigger], why: Code
+    ) -> tuple[ir.Body, ir.Move, list[ir.Trigger]]:
         """The stops for actions that are refused on an arc, and the move with the others."""
-        if move.kind != "circular":
-            return (), move, before
-        own = [one for one in move.triggers if isinstance(one, ir.Trigger)]
-        refused = [one for one in (*before, *own) if self.is_timed(one, move)]
         if not refused:
             return (), move, before
-        stops = tuple(stopped(one, TIMED, self.context) for one in refused)
+        stops = tuple(stopped(one, why, self.context) for one in refused)
         kept = tuple(one for one in move.triggers if one not in refused)
         return stops, replace(move, triggers=kept), [one for one in before if one not in refused]
 
@@ -149,22 +139,20 @@ class _Arcs:
     def straight(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
         own = [one for one in move.triggers if isinstance(one, ir.Trigger)]
         far = [one for one in (*before, *own) if self.is_far(one)]
-        if move.kind != "circular" or move.via is None or move.relative or move.swept is not None or not far:
+        if move.via is None or move.relative or move.swept is not None or not far:
             return (*before, move)
-        if any(self.known(one) is None for one in far):
-            return self.computed(move, before)
         points = self.points(move)
-        if points is None:
-            return self.computed(move, before)
-        arc = _arc(points)
+        computed = far if points is None else [one for one in far if self.known(one) is None]
+        stops, move, before = self.without(move, before, computed, STRAIGHT)
+        arc = None if points is None else _arc(points)
         if arc is None:
-            return (*before, move)
+            return (*stops, *before, move)
         given = [_constant(one, self.known(one) or 0.0, *arc) if one in far else one for one in before]
         at_move = tuple(
             _constant(one, self.known(one) or 0.0, *arc) if isinstance(one, ir.Trigger) and one in far else one
             for one in move.triggers
         )
-        return (*given, replace(move, triggers=at_move))
+        return (*stops, *given, replace(move, triggers=at_move))
 
     def is_far(self, trigger: ir.Trigger) -> bool:
         return trigger.distance is not None and self.known(trigger) != 0.0 and trigger.reference != "middle"
@@ -174,7 +162,7 @@ class _Arcs:
         return 0.0 if trigger.distance is None else self.number(trigger.distance)
 
     def number(self, value: ir.Expression) -> float | None:
-        return constant_number(plain(value), self.editor.scope, self.shared.unchanged)
+        return constant_number(plain(value), self.editor.scope, self.unchanged)
 
     # ---- the arc
 
@@ -184,7 +172,7 @@ class _Arcs:
             return None
         found = []
         for one, target in ((self.last, self.last.target), (move, move.via), (move, move.target)):
-            value = constant(self.in_base(one, target), self.editor.scope, self.shared.unchanged)
+            value = constant(self.in_base(one, target), self.editor.scope, self.unchanged)
             pose = value.pose if isinstance(value, Target) else value
             if not isinstance(pose, rigid.Pose):
                 return None
@@ -193,63 +181,6 @@ class _Arcs:
 
     def in_base(self, move: ir.Move, target: ir.Expression) -> ir.Expression:
         return in_base(move, target, type_of(target, self.editor.scope))
-
-    def computed(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
-        """The distances are worked out in front of the move, in its frame."""
-        assert move.via is not None  # asked for by the caller
-        self.shared.used = True
-        self.context.diagnostics.report(STRAIGHT, move.origin)
-        places = [self.temporary(f"arc_{name}", ir.PoseType()) for name in ("start", "via", "end")]
-        sides = [self.temporary(f"side{n}", _REAL) for n in (1, 2, 3)]
-        steps: list[ir.Statement] = []
-        steps += [ir.Assign(place, value) for place, value in zip(places, self.ends(move), strict=True)]
-        for side, one, other in zip(sides, (1, 0, 0), (2, 2, 1), strict=True):
-            steps.append(ir.Assign(side, ir.Builtin("distance", (places[one], places[other]))))
-        ways: list[tuple[ir.Expression, ir.Name]] = []
-
-        def straight(trigger: ir.Trigger) -> ir.Trigger:
-            if not self.is_far(trigger) or trigger.distance is None:
-                return trigger
-            distance = plain(trigger.distance)
-            at_start = trigger.reference == "start"
-            way = distance if at_start else _opposite(distance)
-            goal = next((name for one, name in ways if one == way), None)
-            if goal is None:
-                goal = self.editor.temporary("straight", _REAL)
-                ways.append((way, goal))
-                steps.append(ir.Assign(goal, ir.Call(self.shared.name, tuple(map(ir.Argument, (way, *sides))))))
-            return replace(trigger, distance=goal if at_start else ir.Unary("-", goal))
-
-        given = [straight(one) for one in before]
-        at_move = tuple(straight(one) if isinstance(one, ir.Trigger) else one for one in move.triggers)
-        done = replace(move, triggers=at_move)
-        if steps[2] == ir.Assign(places[2], _pose(move.target)):  # in the move's frame: the places serve it too
-            done = replace(done, via=self.served(move.via, places[1]), target=self.served(move.target, places[2]))
-        return (*(replace(one, origin=tidy(move.origin)) for one in steps), *given, done)
-
-    def served(self, target: ir.Expression, place: ir.Name) -> ir.Expression:
-        return place if isinstance(self.editor.type_of(target), ir.PoseType) else target
-
-    def temporary(self, stem: str, type: ir.Type) -> ir.Name:
-        if stem not in self.temporaries:
-            self.temporaries[stem] = self.editor.temporary(stem, type)
-        return self.temporaries[stem]
-
-    def ends(self, move: ir.Move) -> tuple[ir.Expression, ir.Expression, ir.Expression]:
-        """Start, point on the way and end, all in one frame."""
-        last = self.last
-        assert move.via is not None  # asked for by the caller
-        here = (_pose(move.via), _pose(move.target))
-        if last is not None and last.relative is None and last.tool == move.tool and last.search is None:
-            type = type_of(last.target, self.editor.scope)
-            if last.frame == move.frame and isinstance(type, ir.PoseType | ir.TargetType):
-                return _pose(last.target), *here
-            if not isinstance(last.blend, ir.BlendStop | None):
-                inner = self.in_base(move, move.via), self.in_base(move, move.target)
-                return self.in_base(last, last.target), *inner
-        tool = move.tool if move.tool is not None else ir.System("tool")
-        frame = move.frame if move.frame is not None else ir.System("null_frame")
-        return _pose(ir.Builtin("current_target", (tool, frame))), *here
 
 
 def ends_known(last: ir.Move | None, move: ir.Move, editor: Editor, unchanged: Unchanged) -> bool:
@@ -294,44 +225,8 @@ def _constant(trigger: ir.Trigger, distance: float, radius: float, length: float
     return replace(trigger, reference="start" if at_start else "end", distance=value)
 
 
-def _function(name: str) -> ir.Routine:
-    """How far two points of an arc are from each other straight that lie `way` mm apart along it. `a`, `b`, `c`: the
-    distances between the arc's point on the way and its end, its start and its end, its start and that point."""
-    way, a, b, c, square, half, far = map(ir.Name, ("way", "a", "b", "c", "square", "half", "far"))
-    shorter = function("min", far, times(number(_WITHIN), b))  # of at most half a circle: no farther than its ends
-    whole = plus(a, b, c)
-    product = times(whole, minus(plus(b, c), a), minus(plus(a, c), b), minus(plus(a, b), c))
-    twice = function("sqrt", square)  # a b c / its root is the radius
-    turned = ir.Binary("/", times(way, twice), times(number(2.0), a, b, c))
-    body: ir.Body = (
-        ir.Assign(square, product),
-        ir.If(((ir.Binary("<=", square, number(1e-9)), (ir.Return(way),)),)),
-        ir.Assign(half, function("min", times(turned, number(round(math.degrees(1.0), 9))), number(90.0))),
-        ir.Assign(far, ir.Binary("/", times(number(2.0), a, b, c, function("sin", half)), twice)),
-        ir.If(((ir.Binary(">=", times(b, b), plus(times(a, a), times(c, c))), (ir.Return(shorter),)),)),
-        ir.Return(far),
-    )
-    return ir.Routine(
-        name,
-        "function",
-        tuple(ir.Parameter(one, _REAL) for one in ("way", "a", "b", "c")),
-        _REAL,
-        tuple(ir.Variable(one, _REAL, scope="routine") for one in ("square", "half", "far")),
-        body,
-        scope="global",
-    )
-
-
 def _is(node: object, name: str | None) -> bool:
     return isinstance(node, ir.Name) and node.id.lower() == name
 
 
-def _opposite(way: ir.Expression) -> ir.Expression:
-    return way.operand if isinstance(way, ir.Unary) and way.op == "-" else ir.Unary("-", way)
-
-
-def _pose(target: ir.Expression) -> ir.Expression:
-    return ir.Builtin("pose_of", (target,))
-
-
-__all__ = ["TIMED", "arc_distances", "ends_known", "written"]
+__all__ = ["STRAIGHT", "TIMED", "arc_distances", "ends_known", "written"]
