@@ -22,6 +22,21 @@ CASES = {
     "a value counted behind the move": ("MOVES b\nn = n+1\nAIO.OUT 1 = n\nBREAK", ["movel", "analog_out"], 1),
     "a watch": ("MOVES b\nTIMER 1 = 0\nBREAK", ["timer_1", "movel"], 0),
     "in a branch": ("MOVES b\nIF n == 1 THEN\nSIGNAL 1\nEND\nBREAK", ["digital_out(0, True)", "movel"], 0),
+    "behind branches that end with moves": (
+        "IF n == 1 THEN\nMOVES b\nELSE\nMOVES SHIFT(b BY 9,0,0)\nEND\nSIGNAL 1\nBREAK",
+        ["digital_out(0, True)", "movel", "digital_out(0, True)", "movel"],
+        0,
+    ),
+    "behind branches in branches": (
+        "IF n == 1 THEN\nMOVES b\nELSE\nIF n == 2 THEN\nMOVES a\nELSE\nMOVES b\nEND\nEND\nSIGNAL 1\nBREAK",
+        ["digital_out(0, True)", "movel", "digital_out(0, True)", "movel", "digital_out(0, True)", "movel"],
+        0,
+    ),
+    "behind branches of which one drives": (
+        "IF n == 1 THEN\nMOVES b\nEND\nSIGNAL 1\nBREAK",
+        ["movel", "digital_out(0, True)"],
+        1,
+    ),
     "a look at an input": (
         "MOVES b\nIF SIG(1001) THEN\nn = 2\nEND\nMOVES a",
         ["standard_digital_in", "movel"],
@@ -68,6 +83,22 @@ def test_a_controller_that_runs_ahead_switches_with_the_main_run() -> None:
     lines, _ = written(CASES["between moves"][0], "krl")
     on = lines.index("$OUT_C[1]=TRUE")
     assert any(line.startswith("LIN") for line in lines[on:]) and "CONTINUE" not in lines
+
+
+@pytest.mark.parametrize(
+    ("name", "late"),
+    [
+        ("between moves", 0),
+        ("behind branches that end with moves", 0),
+        ("behind branches of which one drives", 1),
+        ("behind a loop", 1),
+        ("behind a routine", 1),
+        ("behind a routine that waits", 0),
+    ],
+)
+def test_an_output_that_ends_running_ahead_is_told_as_late(name: str, late: int) -> None:
+    lines, warned = written(CASES[name][0], "krl")
+    assert warned.count("begun-output") == late and ("$OUT_C[1]=TRUE" in lines) == (not late and "waits" not in name)
 
 
 def test_v_plus_itself_keeps_its_order() -> None:

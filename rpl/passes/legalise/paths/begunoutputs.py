@@ -45,8 +45,7 @@ def begun_outputs(program: ir.Program, context: Context) -> ir.Program:
         for module in program.modules
     )
     program = replace(program, modules=modules)
-    if goes_on is not Concurrent.ADVANCE:
-        _Late(program, context, put).report()
+    _Late(program, context, put).report()  # running ahead ends at an output, too, until the move has ended
     return program
 
 
@@ -59,12 +58,11 @@ def _routine(routine: ir.Routine, goes_on: Concurrent, put: list[ir.Statement]) 
         rest = list(body)
         driving = False  # a move that the program does not wait for is on its way
         while rest:
-            statement = inside(rest.pop(0), placed)
-            if (
-                isinstance(statement, ir.Move)
-                and statement.search is None
-                and not (statement.concurrent and goes_on is not Concurrent.NO)
-            ):
+            statement = rest.pop(0)
+            if isinstance(statement, ir.If):
+                statement, rest = _into_branches(statement, rest, given, goes_on)
+            statement = inside(statement, placed)
+            if isinstance(statement, ir.Move) and _waited_for(statement, goes_on):
                 first, rest = _at_begin(statement, rest, given)
                 if first and driving:  # the source is held here until that one ends
                     done.append(ir.WaitForMotion(origin=replace(statement.origin, comments=())))
@@ -84,6 +82,54 @@ def _routine(routine: ir.Routine, goes_on: Concurrent, put: list[ir.Statement]) 
 
 def _is(one: ir.Statement, other: ir.Statement) -> bool:
     return one is other
+
+
+def _waited_for(move: ir.Move, goes_on: Concurrent) -> bool:
+    """Is what stands behind the move done when it ends, as it is written?"""
+    return move.search is None and not (move.concurrent and goes_on is not Concurrent.NO)
+
+
+def _into_branches(
+    choice: ir.If, rest: list[ir.Statement], given: frozenset[str], goes_on: Concurrent
+) -> tuple[ir.If, list[ir.Statement]]:
+    """Behind branches that all end with a move, what is done at its begin stands at the end of each."""
+    moves = _last_moves(choice)
+    if moves is None or not all(_waited_for(one, goes_on) for one in moves):
+        return choice, rest
+    first, behind = _at_begin(moves[0], rest, given)
+    if not first or any(list(map(id, _at_begin(one, rest, given)[0])) != list(map(id, first)) for one in moves):
+        return choice, rest
+    return _with_ends(choice, tuple(first)), behind
+
+
+def _last_moves(choice: ir.If) -> list[ir.Move] | None:
+    """The move at the end of each branch; None where one has none."""
+    found: list[ir.Move] = []
+    for body in blocks(choice):
+        match body[-1:]:
+            case (ir.Move() as move,):
+                found.append(move)
+            case (ir.If() as inner,) if (further := _last_moves(inner)) is not None:
+                found += further
+            case _:
+                return None
+    return found if choice.otherwise else None
+
+
+def _with_ends(choice: ir.If, further: ir.Body) -> ir.If:
+    """The statements at the end of each branch; their comments in the first."""
+    tidied = tuple(replace(one, origin=replace(one.origin, comments=())) for one in further)
+
+    def ended(body: ir.Body, more: ir.Body) -> ir.Body:
+        match body[-1]:
+            case ir.If() as inner:
+                return (*body[:-1], _with_ends(inner, more))
+        return (*body, *more)
+
+    branches = tuple(
+        (condition, ended(body, tidied if at else further)) for at, (condition, body) in enumerate(choice.branches)
+    )
+    return replace(choice, branches=branches, otherwise=ended(choice.otherwise, tidied))
 
 
 def _at_begin(
