@@ -1,71 +1,32 @@
-"""What TP's own words mean in neutral terms. Data only. `M` marks what rests on memory and has a test of its own."""
+"""What TP's own words mean in neutral terms: `words.toml` as the reader asks it, and what only the reader knows.
+
+`M` marks what rests on memory and has a test of its own.
+"""
 
 from __future__ import annotations
 
 import re
 
 from rpl import ir
+from rpl.registry import words
 
-# Signals: TP's letter -> neutral kind. The groups without a number space of their own are named signals.
-NUMBERED_SIGNALS: dict[str, str] = {
-    "DI": "digital_in",
-    "DO": "digital_out",
-    "AI": "analog_in",
-    "AO": "analog_out",
-    "GI": "group_in",
-    "GO": "group_out",
-    "F": "flag",
-}
-NAMED_SIGNALS: dict[str, str] = {
-    "RI": "digital_in",
-    "RO": "digital_out",
-    "UI": "digital_in",
-    "UO": "digital_out",
-    "SI": "digital_in",
-    "SO": "digital_out",
-    "WI": "digital_in",
-    "WO": "digital_out",
-    "WSI": "digital_in",
-    "WSO": "digital_out",
-    "M": "flag",
-}
+_WORDS = words("tp")
+# TP's letter -> neutral kind.
+NUMBERED_SIGNALS = _WORDS.pairs("numbered_signals")
+NAMED_SIGNALS = _WORDS.pairs("named_signals")
 # How many there are of those whose number a program may compute.
 NAMED_COUNTS = {"RI": 8, "RO": 8, "UI": 18, "UO": 20, "SI": 15, "SO": 15}
-SIGNAL_LETTERS = {kind: letter for letter, kind in NUMBERED_SIGNALS.items()}
 
-# Register banks: TP's letter -> type of an element, first and last number, value before anything was written.
-# M: counts of a standard controller; a program that uses a higher number makes the bank larger.
-LAST_NUMBER = {"R": 200, "PR": 100, "SR": 25}
+# M: a program that uses a higher number makes the bank of registers larger.
+LAST_NUMBER = {bank: int(last) for bank, last in _WORDS.numbers("last_numbers").items()}
 FRAMES = {"UFRAME": 9, "UTOOL": 10}
 # Numeric registers beyond it belong to one call of a program (LOCAL_REGISTERS of its header). M: 0 at the start.
 LOCAL_REGISTERS = 10000
 
-FUNCTIONS: dict[str, str] = {
-    "SIN": "sin",
-    "COS": "cos",
-    "TAN": "tan",
-    "ASIN": "asin",
-    "ACOS": "acos",
-    "ATAN": "atan",
-    "ATAN2": "atan2",  # M: ATAN2[y,x]
-    "SQRT": "sqrt",
-    "SQR": "sqrt",
-    "EXP": "exp",
-    "LN": "log",
-    "ABS": "abs",
-    "TRUNC": "trunc",
-    "ROUND": "round",
-    "STRLEN": "text_length",
-}
-
-# Elements of a position register by number.
-CARTESIAN_ELEMENTS = ("x", "y", "z", "c", "b", "a", "e1", "e2", "e3")
-JOINT_ELEMENTS = ("j1", "j2", "j3", "j4", "j5", "j6", "e1", "e2", "e3")
-
-# System variables that have a neutral meaning (upper case, without blanks).
-SYSTEM_VARIABLES: dict[str, str] = {
-    "$MCR.$GENOVERRIDE": "override",
-}
+FUNCTIONS = _WORDS.pairs("functions") | _WORDS.pairs("text_functions")
+CARTESIAN_ELEMENTS = _WORDS.listed("pose_elements")
+JOINT_ELEMENTS = _WORDS.listed("joint_elements")
+SYSTEM_VARIABLES = _WORDS.pairs("system_variables")
 ACTIVE_NUMBERS = {"$MNUFRAMENUM[1]": "UFRAME_NUM", "$MNUTOOLNUM[1]": "UTOOL_NUM"}
 FRAME_VARIABLE = re.compile(r"\$MN(UFRAME|UTOOL)\[1,(\d+)\]")  # of the arm, a whole position
 # M: actual position in the world frame, element by element.
@@ -156,6 +117,4 @@ NUMBER = ir.RealType()
 TARGET = ir.TargetType("tp")
 JOINTS = ir.JointsType()
 
-# M: COORD goes with the first coordinated pair, whose leader is the second motion group; a cell file says where it
-# stands by a [[mechanism]] of this name. Positions count in the user frame in the room, the way is straight on it.
-LEADER = "GP2"
+(LEADER,) = _WORDS.listed("leader")

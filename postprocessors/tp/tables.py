@@ -9,8 +9,12 @@ from collections.abc import Mapping
 from typing import Final
 
 from rpl.passes.capabilities import Bank
+from rpl.registry import words
+from rpl.words import spelled
 from rpl.writing.precedence import Operator, OperatorTable
 from rpl.writing.text import NumberStyle
+
+_WORDS: Final = words("tp")
 
 # M: precedence of mixed logic; all operators group to the left.
 OPERATORS: Final = OperatorTable(
@@ -41,23 +45,9 @@ LONGEST_PLAIN: Final = 5
 NUMBERS: Final = NumberStyle(exponent="")
 
 # Instructions with one argument in brackets that stand alone behind the equals sign.
-FUNCTIONS: Final[Mapping[str, str]] = {
-    "abs": "ABS",
-    "sqrt": "SQRT",
-    "sin": "SIN",
-    "cos": "COS",
-    "tan": "TAN",
-    "asin": "ASIN",
-    "acos": "ACOS",
-    "atan": "ATAN",
-    "atan2": "ATAN2",
-    "exp": "EXP",
-    "log": "LN",
-    "round": "ROUND",
-    "trunc": "TRUNC",
-}
+FUNCTIONS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("functions"))
 # Functions of texts: a name and its arguments without brackets.
-TEXT_FUNCTIONS: Final[Mapping[str, str]] = {"text_length": "STRLEN", "text_part": "SUBSTR"}
+TEXT_FUNCTIONS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("text_functions")) | {"text_part": "SUBSTR"}
 # What the position printers say in their own way, as the right side of an assignment or the target of a move.
 POSITION_FUNCTIONS: Final = frozenset(
     (
@@ -67,11 +57,12 @@ POSITION_FUNCTIONS: Final = frozenset(
 )
 
 # System variables that are read by their names.
-SYSTEM_VARIABLES: Final[Mapping[str, str]] = {"override": "$MCR.$GENOVERRIDE"}
+SYSTEM_VARIABLES: Final[Mapping[str, str]] = spelled(_WORDS.pairs("system_variables"))
+_LAST: Final = {bank: int(last) for bank, last in _WORDS.numbers("last_numbers").items()}
 # Counts as delivered; program limits at a controlled start give more (SpotTool+ manual: PR up to 2000 for one group).
-R: Final = Bank("R", 1, 200, most=999)  # M: the largest number of R
-PR: Final = Bank("PR", 1, 100, most=2000)
-SR: Final = Bank("SR", 1, 25, most=300)  # M: the largest number of SR
+R: Final = Bank("R", 1, _LAST["R"], most=999)  # M: the largest number of R
+PR: Final = Bank("PR", 1, _LAST["PR"], most=2000)
+SR: Final = Bank("SR", 1, _LAST["SR"], most=300)  # M: the largest number of SR
 F: Final = Bank("F", 1, 1024, "flag")
 TIMER: Final = Bank("TIMER", 1, 20, "timer")
 POINTS: Final = Bank("P", 1, 1500)  # M: largest number of a taught position
@@ -81,23 +72,15 @@ LAST_LABEL: Final = 32766
 MOST_TOOLS: Final = 9  # M: UTOOL[10] exists on newer controllers only
 MOST_FRAMES: Final = 9
 
-SIGNALS: Final[Mapping[str, str]] = {
-    "digital_in": "DI",
-    "digital_out": "DO",
-    "analog_in": "AI",
-    "analog_out": "AO",
-    "group_in": "GI",
-    "group_out": "GO",
-    "flag": "F",
-}
+SIGNALS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("numbered_signals"))
 # M: last numbers of the signals.
 LAST_SIGNAL: Final[Mapping[str, int]] = {"DI": 32767, "DO": 32767, "AI": 64, "AO": 64, "GI": 100, "GO": 100, "F": 1024}
-NAMED_SIGNALS: Final = ("RI", "RO", "UI", "UO", "SI", "SO", "WI", "WO", "WSI", "WSO", "M", "SEMAPHORE")
+NAMED_SIGNALS: Final = (*_WORDS.pairs("named_signals"), "SEMAPHORE")
 
 LETTERS: Final[Mapping[str, str]] = {"joint": "J", "linear": "L", "circular": "C"}
 # Components of a position register by their number.
-POSE_ELEMENTS: Final = ("x", "y", "z", "c", "b", "a", "e1", "e2", "e3")
-JOINT_ELEMENTS: Final = ("j1", "j2", "j3", "j4", "j5", "j6", "e1", "e2", "e3")
+POSE_ELEMENTS: Final = _WORDS.listed("pose_elements")
+JOINT_ELEMENTS: Final = _WORDS.listed("joint_elements")
 
 LONGEST_LINE: Final = 254  # M: characters of one instruction
 LOGIC_NAMES = 8  # registers in one condition: so many fit in a line with their comments
@@ -121,4 +104,4 @@ MM_PER_CNT: Final = 4.0  # a blend distance at a joint move as CNT; the same mea
 RESERVED: Final = frozenset(("all", "end", "abort", "pause", "call", "run", "wait", "for", "if", "else", "select"))
 
 # What COORD says: the first coordinated pair is led by the second motion group.
-LEADER: Final = "GP2"
+(LEADER,) = _WORDS.listed("leader")
