@@ -168,7 +168,8 @@ class _Arcs:
 
     def points(self, move: ir.Move) -> list[rigid.Vector] | None:
         """Start, point on the way and end, where all are constants."""
-        if self.last is None or self.last.relative or move.via is None:
+        cuts = self.context.capabilities.motion.cut_from_mm  # and has not: a writer sees no constants here
+        if cuts or self.last is None or self.last.relative or move.via is None:
             return None
         found = []
         for one, target in ((self.last, self.last.target), (move, move.via), (move, move.target)):

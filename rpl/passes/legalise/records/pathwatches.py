@@ -1,5 +1,5 @@
-"""Actions on the way of a joint move, or of an arc with computed points: the program looks where the tool is while the
-robot moves, and acts there.
+"""Actions on the way of a joint move at a constant place or time before its end: the program looks where the tool is
+while the robot moves, and acts there. At a place that the run decides they are refused.
 
 For targets whose moves can leave the program running (NWAIT) and that cut only straight moves at a place. A time before
 the end is told from how far the tool has come since the last look, as if it braked evenly from there on.
@@ -17,6 +17,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.saidaccelerations import number_of
 from rpl.passes.legalise.rewriting.beside import tidy
 from rpl.passes.legalise.rewriting.editing import Editor
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.typing import type_of
 
@@ -26,17 +27,22 @@ WATCHED = code(
     "an action on the path is done by the program, which looks every {seconds:g} s how far the tool is from the end;"
     " a time before the end is estimated from its speed",
 )
+COMPUTED = code(
+    "path-event-computed-on-joint-move",
+    Severity.LOSS,
+    "how far before the end of a joint move an action comes, only the run knows; the target cuts no such move there",
+    "give the distance as a constant, or drive straight",
+    stops=True,
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Watched:
-    """An action that comes where the tool is `way` mm from the end (of an arc: straight; `computed` where the program
-    works that out), or `time` s before it, or that long behind."""
+    """An action that comes where the tool is `way` mm from the end, or `time` s before it, or that long behind."""
 
     trigger: ir.Trigger
     way: float
     time: float
-    computed: ir.Expression | None = None
 
     @property
     def order(self) -> tuple[float, float]:
@@ -45,7 +51,7 @@ class Watched:
     @property
     def apart(self) -> bool:
         """Does it come elsewhere than at the end?"""
-        return bool(self.way or self.time or self.computed)
+        return bool(self.way or self.time)
 
 
 def watched(
@@ -57,9 +63,15 @@ def watched(
     temporary: Callable[[str, ir.Type], ir.Name],
 ) -> ir.Body | None:
     """The move with the looking behind it; None where that cannot be."""
-    can_be = move.kind in ("joint", "circular") and move.relative is None and move.swept is None
-    if not can_be or move.search is not None or move.concurrent:
+    if move.kind != "joint" or move.relative is not None or move.search is not None or move.concurrent:
         return None
+    refused = [one for one in given if _is_computed(one, editor, unchanged)]
+    if refused:
+        stops = [stopped(one, COMPUTED, editor.context) for one in refused]
+        others, plain_move = [one for one in given if one not in refused], replace(move, triggers=())
+        as_it_is: ir.Body = (*others, plain_move)
+        looked = watched(plain_move, others, goes_on, editor, unchanged, temporary)
+        return (*stops, *(as_it_is if looked is None else looked))
     size = _corner(move, editor, unchanged)
     events = [_event(one, editor, unchanged) for one in given]
     if size is None or any(one is None for one in events):
@@ -67,10 +79,8 @@ def watched(
     found = [one for one in events if one is not None]
     apart = sorted((one for one in found if one.apart), key=lambda one: one.order)
     both = any(one.way for one in apart) and any(one.time for one in apart)
-    if not apart or (len(apart) > 1 and (both or any(one.computed is not None for one in apart))):
+    if not apart or (len(apart) > 1 and both):
         return None
-    if move.kind == "circular" and any(one.time < 0.0 for one in apart):
-        return None  # not as fast as the tool comes straight nearer
     poll = editor.capabilities.io.poll_s
     editor.context.diagnostics.report(WATCHED, given[0].origin, seconds=poll)
     names = temporary("to", ir.PoseType()), temporary("was", ir.RealType()), temporary("left", ir.RealType())
@@ -84,7 +94,7 @@ def watched(
     for one in apart:
         seconds = max(-one.time, 0.0)
         seconds = seconds if size else at_present_speed(seconds, ramp_s(move, editor.context))  # a corner brakes not
-        done.extend(_until(move, one.way if one.computed is None else one.computed, seconds, names, poll, size))
+        done.extend(_until(move, one.way, seconds, names, poll, size))
         done.extend([_pause(one.time)] if one.time > 0.0 else [])
         done.append(replace(one.trigger.action, origin=one.trigger.origin))
     if not size:
@@ -127,15 +137,15 @@ def _corner(move: ir.Move, editor: Editor, unchanged: Unchanged) -> float | None
     return None
 
 
+def _is_computed(trigger: ir.Trigger, editor: Editor, unchanged: Unchanged) -> bool:
+    distance = trigger.distance
+    return distance is not None and constant_number(plain(distance), editor.scope, unchanged) is None
+
+
 def _event(trigger: ir.Trigger, editor: Editor, unchanged: Unchanged) -> Watched | None:
     """None where its place is not known before, or counted from the start."""
     given = [plain(one) for one in (trigger.distance, trigger.delay) if one is not None]
     numbers = [constant_number(one, editor.scope, unchanged) for one in given]
-    at_once = all(number == 0.0 for number in numbers[1:])
-    if trigger.distance is not None and numbers[0] is None and at_once and trigger.reference != "start":
-        negated = isinstance(given[0], ir.Unary) and given[0].op == "-"
-        left = given[0].operand if negated and isinstance(given[0], ir.Unary) else ir.Unary("-", given[0])
-        return Watched(trigger, 0.0, 0.0, left)
     if None in numbers:
         return None
     distance = 0.0 if trigger.distance is None else numbers[0] or 0.0
@@ -162,7 +172,7 @@ def _end(move: ir.Move, editor: Editor) -> ir.Expression:
 
 def _until(
     move: ir.Move,
-    way: float | ir.Expression,
+    way: float,
     time: float,
     names: tuple[ir.Name, ir.Name, ir.Name],
     poll: float,
@@ -173,30 +183,23 @@ def _until(
     end, was, left = names
     here = ir.Builtin("current_target", (_tool(move), ir.System("null_frame")))
     distance = ir.Builtin("distance", (ir.Field(here, "trans"), ir.Field(end, "trans")))
-    near = ir.RealLiteral(max(way, size)) if isinstance(way, float) else way
-    arc = move.kind == "circular" and (not isinstance(way, float) or way > 0.0)
+    near: ir.Expression = ir.RealLiteral(max(way, size))
     if time:
         near = ir.Binary("*", ir.Binary("-", was, left), ir.RealLiteral(float(f"{time / poll:.9g}")))
-        near = ir.Binary("+", near, ir.RealLiteral(way)) if isinstance(way, float) and way else near
+        near = ir.Binary("+", near, ir.RealLiteral(way)) if way else near
     comes: ir.Expression = ir.Binary("<=", left, near)
-    if size and (time or not isinstance(way, float)):
+    if size and time:
         comes = ir.Binary("cor", comes, ir.Binary("<=", left, ir.RealLiteral(size)))
     leave = ir.If(((comes, (ir.ExitLoop(),)),))
     again: tuple[ir.Statement, ...] = (ir.Assign(was, left),) if time else ()
     first: tuple[ir.Statement, ...] = (ir.Assign(was, distance),) if time else ()
     looking: tuple[ir.Statement, ...] = (_pause(poll), ir.Assign(left, distance), leave, *again)
     origin = tidy(move.origin)
-    loops = (ir.Loop(_away(left, distance, near, poll)), ir.Loop(looking)) if arc else (ir.Loop(looking),)
-    return [replace(one, origin=origin) for one in (*first, *loops)]
-
-
-def _away(left: ir.Name, distance: ir.Expression, near: ir.Expression, poll: float) -> ir.Body:
-    """An arc of more than half a circle may begin nearer to its end than the place on its way is."""
-    return (ir.Assign(left, distance), ir.If(((ir.Binary(">=", left, near), (ir.ExitLoop(),)),)), _pause(poll))
+    return [replace(one, origin=origin) for one in (*first, ir.Loop(looking))]
 
 
 def _pause(seconds: float) -> ir.Statement:
     return ir.Wait(ir.Quantity(ir.RealLiteral(seconds), "s"))
 
 
-__all__ = ["Watched", "at_present_speed", "ramp_s", "watched"]
+__all__ = ["COMPUTED", "Watched", "at_present_speed", "ramp_s", "watched"]
