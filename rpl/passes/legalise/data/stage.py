@@ -7,7 +7,6 @@ from __future__ import annotations
 from rpl.passes.legalise.data.arrays import array_bases
 from rpl.passes.legalise.data.comparedrecords import compared_records
 from rpl.passes.legalise.data.datalists import set_data_at_start
-from rpl.passes.legalise.data.declaredremarks import declared_remarks
 from rpl.passes.legalise.data.defaults import starting_values
 from rpl.passes.legalise.data.lists import lists_in_variables
 from rpl.passes.legalise.data.numbers import numbers
@@ -22,7 +21,6 @@ STAGE = Stage(
         compared_records,
         joined_subscripts,
         array_bases,
-        declared_remarks,
         set_data_at_start,
         whole_subscripts,
         numbers,

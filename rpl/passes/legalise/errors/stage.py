@@ -13,12 +13,14 @@ from rpl.passes.legalise.errors.ownrecords import apart_from_neutral_records
 from rpl.passes.legalise.errors.possiblecases import possible_cases
 from rpl.passes.legalise.errors.prelude import link_prelude
 from rpl.passes.legalise.errors.usedelements import used_elements
+from rpl.passes.legalise.interrupts.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 
 STAGE = Stage(
     "errors",
     (
+        without_empty_reactions,
         interrupt_places,
         unreachable_moves,
         error_numbers,

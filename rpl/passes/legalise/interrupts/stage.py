@@ -9,7 +9,6 @@ from rpl.passes.legalise.interrupts.brakedmoves import braked_moves
 from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers
 from rpl.passes.legalise.interrupts.clocks.programtimes import program_times
 from rpl.passes.legalise.interrupts.clocks.routineclocks import clocks_of_routines
-from rpl.passes.legalise.interrupts.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.interrupts.heldmotion import held_motion
 from rpl.passes.legalise.interrupts.interrupts import interrupts
 from rpl.passes.legalise.interrupts.nestedinterrupts import nested_interrupts
@@ -30,7 +29,6 @@ from rpl.passes.legalise.stages import Clause, Stage
 STAGE = Stage(
     "interrupts",
     (
-        without_empty_reactions,
         program_times,
         held_timers,
         clocks_of_routines,

@@ -23,7 +23,7 @@ STAGE = Stage(
         stop_blends,
         begun_moves,
         begun_outputs,
-        whole_targets,
         triggers,
+        whole_targets,
     ),
 )

@@ -20,11 +20,9 @@ from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.settings.modal import modal_to_explicit
 from rpl.passes.legalise.settings.movesettings import settings_at_moves
 from rpl.passes.legalise.settings.onemove import settings_of_one_move
-from rpl.passes.legalise.settings.overrides import full_override
 from rpl.passes.legalise.settings.ownplaces import own_places
 from rpl.passes.legalise.settings.scaledspeeds import scaled_override
 from rpl.passes.legalise.settings.speeds import fit_speeds
-from rpl.passes.legalise.settings.speedshares import speed_shares
 from rpl.passes.legalise.settings.strengths import strengths
 from rpl.passes.legalise.settings.tooldata import tool_data
 from rpl.passes.legalise.settings.usualaccelerations import usual_accelerations
@@ -33,8 +31,6 @@ from rpl.passes.legalise.stages import Clause, Stage
 STAGE = Stage(
     "settings",
     (
-        speed_shares,
-        full_override,
         coordinated_moves,
         strengths,
         usual_accelerations,
