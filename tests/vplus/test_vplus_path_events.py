@@ -131,7 +131,7 @@ def test_an_output_between_two_moves_with_a_corner_keeps_the_corner() -> None:
     assert lines[first + 1 : first + 5] == ["r1 = 5", "MOVES p3", "SIGNAL 1", "BREAK"]
     second = lines.index("MOVES p2", first + 1)
     assert lines[second + 1] == "BREAK"  # nobody knows how long the program waits
-    assert "vplus-corner-stopped" in {item.code.name for item in diagnostics}
+    assert "corner-stops-behind" in {item.code.name for item in diagnostics}
 
 
 def test_a_corner_before_the_end_of_a_loop_stops_only_where_the_loop_ends() -> None:

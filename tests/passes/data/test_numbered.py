@@ -70,7 +70,7 @@ def test_too_many_variables_are_an_error_with_counts() -> None:
     small = replace(
         NUMBERED,
         storage=replace(
-            NUMBERED.storage, banks={**NUMBERED.banks, "RealType": Bank("R", 1, 2), "IntType": Bank("R", 1, 2)}
+            NUMBERED.storage, banks={**NUMBERED.storage.banks, "RealType": Bank("R", 1, 2), "IntType": Bank("R", 1, 2)}
         ),
     )
     before = read(main("a = 1", "VAR a, b, c: INT"))

@@ -76,7 +76,7 @@ def _can(numbers: int, **more: object) -> object:
         NUMBERED,
         **more,
         routines=replace(NUMBERED.routines, locals=NUMBERED.routines.locals - {Local.VARIABLES}),
-        storage=replace(NUMBERED.storage, banks={**NUMBERED.banks, "RealType": bank, "IntType": bank}),
+        storage=replace(NUMBERED.storage, banks={**NUMBERED.storage.banks, "RealType": bank, "IntType": bank}),
     )
 
 
