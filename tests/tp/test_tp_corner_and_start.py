@@ -98,13 +98,16 @@ END PROCEDURE
 
 
 def test_registers_with_joints_in_place_of_a_pose_are_only_moved_to() -> None:
-    """Where an element is asked for, which would be a joint, the place is worked out by a routine."""
-    for then, solved in (("SET do[1] TO TRUE", False), ("SET do[1] TO t.x > 100", True)):
+    """Where an element is asked for, which would be a joint, the assignment is refused: TP calculates no place."""
+    refused = "the place of joint values and the joints of a place are not calculated"
+    for then, told in (("SET do[1] TO TRUE", []), ("SET do[1] TO t.x > 100", [(4, refused)])):
         diagnostics = Diagnostics()
         read = read_sources([source_from_text("p.rpl", JOINTS_AS_PLACES.format(then=then))], "rpl", diagnostics)
         written = translate_program(read, "tp", ROBOTS["krl"], None, diagnostics)
-        assert not written.losses
-        assert ("RPL_FLANGE.LS" in [file.path for file in written.files]) == solved
+        assert [(loss.origin.line, dict(loss.arguments)["reason"]) for loss in written.losses] == told
+        main = next(file.data.decode() for file in written.files if file.path == "MAIN.LS")
+        assert ("PAUSE ;" in main) == bool(told)
+        assert ("PR[1:t]=P[1:ready] ;" in main) != bool(told)
 
 
 def test_blocks_deeper_than_ten_are_jumps() -> None:
