@@ -17,6 +17,7 @@ from rpl.writing.text import number_text
 from . import tables
 from .data import Datum, Store
 from .expressions import NULL, Expressions, point_row, pose_row, root_of
+from .passes.names import names_of, one_namespace
 from .passes.pulses import pulses_as_tasks
 from .passes.waits import waits_put_in
 from .statements import Statements, indented
@@ -30,7 +31,7 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All files of the application. Raises InternalError when a node was neither written nor reported."""
     if context.foreign:
         program = waits_put_in(program, context.diagnostics)
-    program = pulses_as_tasks(program)
+    program = one_namespace(pulses_as_tasks(program))
     return _Application(program, context).files()
 
 
@@ -42,7 +43,7 @@ class _Application:
         self.scopes = ProgramScope(program)
         self.roles = _roles(program)
         self.fathers = _fathers(program, self.roles)
-        self.store = Store(_names(program))
+        self.store = Store(names_of(program))
         self.entry = _entry(program)
         self.first: list[tuple[ir.Initialise, Expressions]] = []  # values that the data are given at the start
 
@@ -291,18 +292,6 @@ def _point(value: ir.Expression) -> str:
         case ir.Builtin(function="offset" | "tool_offset" | "displaced" | "displaced_in_tool", arguments=(first, *_)):
             return _point(first)
     return root_of(value)
-
-
-def _names(program: ir.Program) -> set[str]:
-    found: set[str] = set()
-    for module in program.modules:
-        found.update(str(getattr(declaration, "name", "")) for declaration in module.declarations)
-        for routine in module.routines:
-            found.add(routine.name)
-            found.update(parameter.name for parameter in routine.parameters)
-            found.update(str(getattr(declaration, "name", "")) for declaration in routine.declarations)
-    found.update(node.name or "" for node in walk(*program.modules) if isinstance(node, ir.Signal))
-    return found
 
 
 def _entry(program: ir.Program) -> str:

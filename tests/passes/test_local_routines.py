@@ -62,7 +62,7 @@ ENDFCT
 }
 
 
-@pytest.mark.parametrize("language", ["rapid", "krl", "tp", "urscript", "vplus", "inform", "rpl"])
+@pytest.mark.parametrize("language", ["rapid", "krl", "tp", "urscript", "vplus", "inform", "val3", "rpl"])
 @pytest.mark.parametrize(
     ("files", "source", "arm", "entry"),
     [(RAPID, "rapid", "abb_irb1200_5_90", "main"), (KRL, "krl", "kuka_kr6r900sixx", "FIRST")],

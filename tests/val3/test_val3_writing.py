@@ -15,6 +15,7 @@ from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
 from rpl.source import source_from_text
 from rpl.translation import translate_program
+from tests.there_and_back import there_and_back
 
 KRL = """DEF job( )
 DECL E6POS XP
@@ -119,3 +120,20 @@ def test_what_is_written_means_what_was_read(code: str) -> None:
     assert not [item.as_text() for item in found if item.code.name.startswith(("val3-not", "val3-lost", "unreadable"))]
     result = prove_programs(program.program, back.program, ROBOT, entry="start")
     assert result.verdict in ("equal", "alike"), result
+
+
+def test_data_of_one_name_in_two_modules_are_two_data() -> None:
+    """What all modules see keeps its name; what a routine declares for itself hides both."""
+    files = {
+        "job.src": "DEF JOB()\nOTHER()\nTHIRD()\n$OUT[1]=(N==1)\nEND\n",
+        "job.dat": "DEFDAT JOB\nINT N=1\nENDDAT\n",
+        "other.src": "DEF OTHER()\n$OUT[2]=(N==2)\nEND\n",
+        "other.dat": "DEFDAT OTHER PUBLIC\nDECL GLOBAL INT N=2\nENDDAT\n",
+        "third.src": "DEF THIRD()\nOWN()\n$OUT[3]=(N==2)\nEND\nDEF OWN()\nINT N\nN=4\n$OUT[4]=(N==4)\nEND\n",
+    }
+    journey = there_and_back(files, "krl", "val3", "kuka_kr6r900sixx")
+    assert not journey.losses
+    data = next(file.data.decode() for file in journey.written.files if file.path == "job.dtx")
+    values = dict(re.findall(r'<Data name="(n(?:_\d)?)".*\n.*value="(\d)"', data))
+    assert values == {"n": "2", "n_2": "1"}
+    assert journey.switched_on(journey.run("JOB")) == {1, 2, 3, 4}

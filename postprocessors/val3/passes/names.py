@@ -1,0 +1,86 @@
+"""Data of several modules in one application, whose programs all see all its data: two of one name are told apart.
+
+What other modules can see keeps its name, else the first module's does; the others' get a number behind it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import rewrite, walk
+
+from ..tables import LONGEST_NAME, RESERVED
+
+
+def one_namespace(program: ir.Program) -> ir.Program:
+    """The program with one datum for each name of its modules' data."""
+    data = [_data(module) for module in program.modules]
+    homes: dict[str, int] = {}
+    for seen in (True, False):
+        for at, declared in enumerate(data):
+            for name, shared in declared.items():
+                if shared is seen:
+                    homes.setdefault(name, at)
+    again = [[name for name in declared if homes[name] != at] for at, declared in enumerate(data)]
+    if not any(again):
+        return program
+    taken = names_of(program) | RESERVED
+    modules = []
+    for module, names in zip(program.modules, again, strict=True):
+        modules.append(_renamed(module, {name: _free(name, taken) for name in names}))
+    return replace(program, modules=tuple(modules))
+
+
+def names_of(program: ir.Program) -> set[str]:
+    """Every name that the program declares or gives a signal."""
+    found: set[str] = set()
+    for module in program.modules:
+        found.update(str(getattr(declaration, "name", "")) for declaration in module.declarations)
+        for routine in module.routines:
+            found.add(routine.name)
+            found.update(parameter.name for parameter in routine.parameters)
+            found.update(str(getattr(declaration, "name", "")) for declaration in routine.declarations)
+    found.update(node.name or "" for node in walk(*program.modules) if isinstance(node, ir.Signal))
+    return found
+
+
+def _data(module: ir.Module) -> dict[str, bool]:
+    """The module's data by name; do other modules see it?"""
+    return {one.name: one.scope != "module" for one in module.declarations if isinstance(one, ir.Variable)}
+
+
+def _free(name: str, taken: set[str]) -> str:
+    number = 2
+    while (found := f"{name[: LONGEST_NAME - len(str(number)) - 1]}_{number}") in taken:
+        number += 1
+    taken.add(found)
+    return found
+
+
+def _renamed(module: ir.Module, new: Mapping[str, str]) -> ir.Module:
+    """The module with other names for its data. What a routine declares for itself hides them in it."""
+    if not new:
+        return module
+    routines = []
+    for routine in module.routines:
+        own = {one.name for one in routine.parameters}
+        own.update(one.name for one in routine.declarations if isinstance(one, ir.Variable))
+        routines.append(rewrite(routine, _exchanging({old: name for old, name in new.items() if old not in own})))
+    declarations = tuple(rewrite(one, _exchanging(new)) for one in module.declarations)
+    return replace(module, declarations=declarations, routines=tuple(routines))
+
+
+def _exchanging(new: Mapping[str, str]) -> Callable[[object], object]:
+    def change(node: object) -> object:
+        match node:
+            case ir.Name(id=name) if name in new:
+                return replace(node, id=new[name])
+            case ir.For(counter=name) if name in new:
+                return replace(node, counter=new[name])
+            case ir.Variable(name=name) if name in new:
+                return replace(node, name=new[name])
+        return node
+
+    return change
