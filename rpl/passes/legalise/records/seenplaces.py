@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.passes import rigid
-from rpl.passes.capabilities import PlaceRule
+from rpl.passes.capabilities import Composite, PlaceRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
@@ -31,12 +31,12 @@ def seen_places(program: ir.Program, context: Context) -> ir.Program:
 @legalising(
     unless=lambda context: (
         PlaceRule.IN_BASE in context.capabilities.places.rules
-        or not context.capabilities.storage.banks
+        or Composite.RECORDS in context.capabilities.data.composites
         or "ToolType" in context.capabilities.types
     )
 )
 def posed_places(program: ir.Program, context: Context) -> ir.Program:
-    """Tool and work object data in such functions as poses, for targets with numbered storage."""
+    """Tool and work object data in such functions as poses, for targets without records."""
     return _Posed(program, context).program()
 
 
