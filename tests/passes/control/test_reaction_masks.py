@@ -37,7 +37,9 @@ LOCKED = """.PROGRAM main()
 .END
 """
 CELL = Cell(inputs=(Input(0.5, "1001", True), Input(1.0, "1002", True)))
-TARGETS = [name for name in registry.target_names() if name != "urscript"]  # tests/urscript has them for threads
+KNOWN = {"DeclareInterrupt", "ConnectInterrupt"}
+NONE = [name for name in registry.target_names() if not KNOWN & registry.target(name).capabilities_under({}).statements]
+TARGETS = [name for name in registry.target_names() if name not in ("urscript", *NONE)]  # tests/urscript: for threads
 # Priority of the first reaction, lock, lock afterwards; what is switched on.
 WHOLE = [(10, 127, 0, "5 2 1 6"), (10, 60, 0, "5 2 1 6"), (10, 127, 127, "5 6"), (10, 0, 0, "1 2 5 6")]
 PARTS = [(10, 20, 0, "2 5 1 6"), (10, 60, 20, "5 2 6"), (70, 65, 0, "1 5 2 6"), (10, 9, 0, "1 2 5 6")]
@@ -73,6 +75,12 @@ def test_all_reactions_wait(target: str, priority: int, locked: int, after: int,
 @pytest.mark.parametrize(("priority", "locked", "after", "order"), PARTS)
 def test_some_reactions_wait(target: str, priority: int, locked: int, after: int, order: str) -> None:
     assert switched(target, priority, locked, after) == (order, [])
+
+
+@pytest.mark.parametrize("target", NONE)
+def test_where_there_are_no_interrupts_each_is_refused_and_the_program_stops_there(target: str) -> None:
+    order, losses = switched(target, 10, 60, 0)
+    assert order == "" and set(losses) == {"interrupt-lost"}
 
 
 def test_where_all_or_none_wait_a_part_is_refused() -> None:
