@@ -62,6 +62,7 @@ CAPABILITIES = Capabilities(
         ),
         speeds=frozenset(("joint", "path")),
         blends=frozenset(("BlendDistance",)),
+        tool_in_force=False,
     ),
     tasks=Tasks(operations=frozenset(("start", "stop", "pause", "resume")), places_beside=True),
     io=Io(

@@ -42,6 +42,9 @@ class Settings:
     asked_frames: bool = True
     """A program can ask for the frame in force (else a variable keeps it where one does)."""
 
+    tool_in_force: bool = True
+    """Asking for a place without a tool means the one of the last move (else each such question names one)."""
+
     no_tool: str = ""
     """The target's own tool data without any offset, where moves name such data and no plain poses."""
 

@@ -63,11 +63,12 @@ class _Settings:
     here: State = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     reported: set[tuple[Code, str]] = field(default_factory=set)
-    several: bool = False  # does the program set different tools?
+    told: bool = False  # does the program set different tools, or is none ever in force?
     accelerations: Accelerations = field(init=False)
 
     def __post_init__(self) -> None:
-        self.several = len({repr(value) for value in _tools(self.source)}) > 1
+        several = len({repr(value) for value in _tools(self.source)}) > 1
+        self.told = several or not self.context.capabilities.settings.tool_in_force
         self.flow = Flow.of(self.source, dict(rules_of(self.context.source).system_defaults))
         self.accelerations = Accelerations(self.source, self.context, self.flow.start)
 
@@ -147,7 +148,7 @@ class _Settings:
         if isinstance(expression, ir.System) and expression.name in SETTINGS and self.says(expression.name):
             return self.variable(expression.name)
         done = rewrite_parts(expression, self.expression)
-        if self.several and self.says("tool"):
+        if self.told and self.says("tool"):
             done = self.with_tool(done)
         return self.in_base(done) if MoveSetting.FRAME in self.context.capabilities.settings.of_moves else done
 
