@@ -284,6 +284,9 @@ CELLS = {"a door": answers(38, 21, 0.9), "a contact": answers(39, 22, 0.9)}
 # What a language cannot say: (program, target) -> expectations that are missed, losses that say so.
 REFUSED: dict[tuple[str, str], tuple[set[int], set[str]]] = {
     ("a call on the way", "vplus"): ({1}, {"vplus-guarded-stop"}),
+    # The interrupt brakes a move that goes on behind it: only the robot's own interrupts do that.
+    **{("a door", target): ({1}, {"interrupt-not-watched"}) for target in ("inform", "tp", "urscript")},
+    ("a door", "vplus"): ({1}, {"braked-move-lost"}),
 }
 
 

@@ -1,22 +1,26 @@
 """Interrupts with a name (RAPID intnum), for targets where a number has one declaration and one action: a variable that
 is connected to several routines, or ordered in several ways, and a routine that asks which interrupt has called it.
 
-Each is refused where it is connected; what orders and switches it is a remark.
+Each is refused where it is connected; what orders and switches it is a remark. Variables of several routines, or local
+ones of several modules, that are called the same are interrupts of their own.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.refusedactions import without_actions
 from rpl.passes.legalise.rewriting.stopping import left_out, stopped
+from rpl.passes.scope import ProgramScope
 
-__all__ = ["ASKED", "ORDERED", "SEVERAL", "one_meaning_each"]
+__all__ = ["ASKED", "ORDERED", "SEVERAL", "one_meaning_each", "one_name_each"]
 
 SEVERAL = code(
     "interrupt-connected-anew",
@@ -41,6 +45,61 @@ ASKED = code(
 )
 _NUMBER = "interrupt_number"
 _HANDLED = ir.OrderInterrupt | ir.ControlInterrupt
+
+
+def one_name_each(program: ir.Program, context: Context) -> ir.Program:
+    """The program in which no two interrupt variables have one name: what follows knows them by their names."""
+    names: set[str] = set()
+    renamed: dict[int, str] = {}  # by identity of the declaration
+
+    def note(declarations: tuple[ir.Declaration, ...]) -> None:
+        for one in declarations:
+            if isinstance(one, ir.Variable) and isinstance(_single(one.type), ir.InterruptType):
+                if one.name.lower() in names:
+                    renamed[id(one)] = context.fresh(one.name)
+                names.add(one.name.lower())
+
+    for module in program.modules:
+        note(module.declarations)
+        for routine in module.routines:
+            note(routine.declarations)
+    if not renamed:
+        return program
+    scopes = ProgramScope(program)
+
+    def declared(declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration, ...]:
+        return tuple(
+            replace(one, name=renamed[id(one)]) if isinstance(one, ir.Variable) and id(one) in renamed else one
+            for one in declarations
+        )
+
+    def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        scope = scopes.routine(module, routine)
+
+        def change(node: object) -> object:
+            if isinstance(node, ir.Name):
+                symbol = scope.value(node.id)
+                if symbol is not None and id(symbol.declaration) in renamed:
+                    return replace(node, id=renamed[id(symbol.declaration)])
+            return node
+
+        return rewrite(replace(routine, declarations=declared(routine.declarations)), change)
+
+    return replace(
+        program,
+        modules=tuple(
+            replace(
+                module,
+                declarations=declared(module.declarations),
+                routines=tuple(work(module, routine) for routine in module.routines),
+            )
+            for module in program.modules
+        ),
+    )
+
+
+def _single(type: ir.Type) -> ir.Type:
+    return type.element if isinstance(type, ir.ArrayType) else type
 
 
 def one_meaning_each(program: ir.Program, context: Context) -> ir.Program:

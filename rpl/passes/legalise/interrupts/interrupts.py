@@ -13,7 +13,7 @@ from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.legalise.interrupts.changes import watched_changes
-from rpl.passes.legalise.interrupts.identities import one_meaning_each
+from rpl.passes.legalise.interrupts.identities import one_meaning_each, one_name_each
 from rpl.passes.legalise.interrupts.traps import priorities_to_traps
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.stages import legalising
@@ -29,7 +29,7 @@ def interrupts(program: ir.Program, context: Context) -> ir.Program:
     if "DeclareInterrupt" not in statements and "ConnectInterrupt" in statements:
         return priorities_to_traps(program, context)
     if "ConnectInterrupt" not in statements and "DeclareInterrupt" in statements:
-        program = watched_changes(program, context)
+        program = one_name_each(watched_changes(program, context), context)
         kept = one_meaning_each(program, context)
         return _Priorities(kept, context).program(refused=kept is not program)
     return program

@@ -4,7 +4,6 @@ tasks again, because an interrupt may have become one.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.interrupts.actionarguments import action_arguments
 from rpl.passes.legalise.interrupts.brakedmoves import braked_moves
 from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers
 from rpl.passes.legalise.interrupts.clocks.programtimes import program_times
@@ -35,7 +34,6 @@ STAGE = Stage(
         reactions_once,
         nested_interrupts,
         single_disables,
-        action_arguments,
         stored_paths,
         held_motion,
         reactions,

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from rpl.passes.legalise.data.arrays import array_sizes
 from rpl.passes.legalise.routines.aliases import without_aliases
-from rpl.passes.legalise.routines.aliasing import without_shared_references
 from rpl.passes.legalise.routines.givenarrays import given_arrays
 from rpl.passes.legalise.routines.optional import fit_parameters
 from rpl.passes.legalise.routines.results import list_results
@@ -20,7 +19,6 @@ from rpl.passes.legalise.stages import Stage
 STAGE = Stage(
     "routines",
     (
-        without_shared_references,
         list_results,
         without_aliases,
         fit_parameters,
