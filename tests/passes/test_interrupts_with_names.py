@@ -85,3 +85,41 @@ def test_a_target_without_interrupts_stops_where_the_interrupt_is_connected() ->
     translate_program(read, "val3", ARM, None, diagnostics)
     stops = [(item.code.name, item.origin.line) for item in diagnostics.of(Severity.LOSS) if item.origin.line > 4]
     assert stops == [("interrupt-lost", 6)]
+
+
+SAME_NAME = """MODULE m
+  VAR num n:=0;
+  PROC main()
+    VAR intnum irq;
+    CONNECT irq WITH tFirst;
+    ISignalDO do5,1,irq;
+    other;
+    Set do5;
+    WaitTime 0.1;
+    IDelete irq;
+    IF n=2 Set do1;
+  ENDPROC
+  PROC other()
+    VAR intnum irq;
+    CONNECT irq WITH tFirst;
+    ISignalDO do6,1,irq;
+    Set do6;
+    WaitTime 0.1;
+    IDelete irq;
+  ENDPROC
+  TRAP tFirst
+    n:=n+1;
+  ENDTRAP
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("target", ["krl", "tp", "urscript", "vplus", "inform"])
+def test_variables_of_two_routines_are_two_interrupts(target: str) -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("m.mod", SAME_NAME)], "rapid", Diagnostics())
+    written = translate_program(read, target, ARM, None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
+    result = run_program(back.program, ARM, None, written.renamed.get("main", "main"), 10.0)
+    assert result.fault is None and len(result.outputs) == 3  # do5, do6 and, where both came, do1
