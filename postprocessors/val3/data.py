@@ -45,6 +45,7 @@ class Store:
         self.made: dict[tuple[str, ...], str] = {}
         self.helpers: dict[tuple[str, ...], str] = {}
         self.lost: set[str] = set()  # names of the program that could not be declared
+        self.unwritten: set[str] = set()  # routines whose parameters could not be declared
 
     def fresh(self, wish: str) -> str:
         """A name that nothing has, at most 15 signs long."""

@@ -205,6 +205,8 @@ class Statements:
     def arguments(self, name: str, arguments: tuple[ir.Argument, ...]) -> tuple[list[str], list[str]]:
         """Lines in front and the arguments. A point counts in the world for the program that gets it."""
         e = self.expressions
+        if name in e.store.unwritten:
+            raise CannotSayError(f"{name} could not be declared")
         routine = e.scope.routine(name)
         parameters = routine.parameters if routine is not None else ()
         before: list[str] = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, statements, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.scope import ProgramScope, Scope
@@ -57,6 +57,9 @@ class _Application:
             if datum.father.partition("[")[0] not in ("", "world", "flange", *self.store.data):
                 datum.father = "world[0]"  # no movement to it is written
         programs: dict[str, str] = {}
+        for module in self.program.modules:
+            for routine in module.routines:
+                self.told_parameters(module, routine)
         for module in self.program.modules:
             for routine in module.routines:
                 programs[routine.name] = self.routine(module, routine)
@@ -147,21 +150,47 @@ class _Application:
 
     # ---- programs
 
+    def told_parameters(self, module: ir.Module, routine: ir.Routine) -> None:
+        """A routine with a parameter that cannot be declared is not written: its calls stop."""
+        scope = self.scopes.routine(module, routine)
+        try:
+            for one in routine.parameters:
+                self.parameter(one, scope)
+        except CannotSayError as error:
+            self.store.unwritten.add(routine.name)
+            self.diagnostics.report(LOST, routine.origin, name=routine.name, reason=str(error))
+
+    def stopped_routine(self, routine: ir.Routine) -> str:
+        """In place of a routine that cannot be declared: the stop alone, for who starts it by hand."""
+        self.ledger.written(routine)
+        for declaration in routine.declarations:
+            self.ledger.reported(declaration)
+        for statement in statements(*bodies(routine)):
+            self.ledger.reported(statement)
+        lines = self.say.lines("guarded", original=[f"{routine.name} is not written"])
+        return self.say("program", name=routine.name, parameters=[], locals=[], lines=indented(lines, self.say("step")))
+
     def routine(self, module: ir.Module, routine: ir.Routine) -> str:
+        if routine.name in self.store.unwritten:
+            return self.stopped_routine(routine)
         scope = self.scopes.routine(module, routine)
         expressions = self.expressions(scope)
         statements = Statements(expressions, self.diagnostics, self.ledger, self.say)
         self.ledger.written(routine)
         lines = statements.remarks(routine.origin)
         locals_: list[tuple[str, str, int]] = []
+        lost: set[str] = set()
         for declaration in routine.declarations:
             try:
                 lines.extend(self.local(declaration, expressions, locals_))
                 self.ledger.written(declaration)
             except CannotSayError as error:
                 name = str(getattr(declaration, "name", "this"))
+                lost.add(name)
                 self.ledger.reported(declaration)
                 self.diagnostics.report(LOST, declaration.origin, name=name, reason=str(error))
+        known_lost = self.store.lost
+        self.store.lost = known_lost | lost
         if routine.name == self.entry:
             lines.extend(self.given())
             for task in self.program.tasks:
@@ -169,6 +198,7 @@ class _Application:
                     lines.extend(self.say.lines("create", task=task.entry, priority=10, name=task.entry, arguments=""))
         parameters = [self.parameter(one, scope) for one in routine.parameters]
         lines.extend(statements.body(routine.body))
+        self.store.lost = known_lost
         for handler in routine.handlers:
             for statement in handler.body:
                 self.ledger.reported(statement)

@@ -10,7 +10,7 @@ import re
 import pytest
 from val3_helpers import ROBOT, application
 
-from rpl.diagnostics import Diagnostics
+from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
 from rpl.source import source_from_text
@@ -137,3 +137,23 @@ def test_data_of_one_name_in_two_modules_are_two_data() -> None:
     values = dict(re.findall(r'<Data name="(n(?:_\d)?)".*\n.*value="(\d)"', data))
     assert values == {"n": "2", "n_2": "1"}
     assert journey.switched_on(journey.run("JOB")) == {1, 2, 3, 4}
+
+
+def test_a_routine_that_cannot_be_declared_stops_where_it_is_called() -> None:
+    text = """.PROGRAM main()
+        mat[1,1] = 5
+        SIGNAL 1
+        CALL fill(mat[,], 3)
+        SIGNAL 2
+.END
+.PROGRAM fill(m[,], n)
+        m[1,2] = n
+.END
+"""
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())
+    files = translate_program(read, "val3", ROBOT, None, diagnostics).files
+    lost = [item for item in diagnostics.of(Severity.LOSS) if "fill" in item.message]
+    assert {item.origin.line for item in lost} >= {4, 7}
+    main = next(file.data.decode() for file in files if file.path == "main.pgx")
+    assert "call fill" not in main and main.count("wait(false)") >= 1
