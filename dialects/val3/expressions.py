@@ -36,6 +36,7 @@ CONFIGURATIONS: dict[str, int | None] = {
 }
 BLENDS = {"off": 0, "joint": 1, "cartesian": 2, "Cartesian": 2}
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
+_NUMBERED_OUTPUT = re.compile(r"[da]o\d+", re.IGNORECASE)
 _OUTPUT = re.compile(r"%Q|\bb?Out|\bout|valve|\bDO|\bAO", re.IGNORECASE)
 
 
@@ -179,10 +180,11 @@ class Expressions:
         return Value(ir.Signal(kind, name=name), "dio")
 
     def direction(self, name: str, kind: str) -> str:
-        """Is a signal an output? It is where something sets it, or where its wiring says so."""
+        """Is a signal an output? It is where something sets it, or where its wiring or a name such as do5 says so."""
         datum = self.facts.data.get(name)
         link = " ".join(value.get("link", "") for value in datum.values.values()) if datum is not None else ""
-        out = name in self.facts.assigned or "%Q" in link or bool(_OUTPUT.search(link))
+        said = "%Q" in link or bool(_OUTPUT.search(link)) or bool(_NUMBERED_OUTPUT.fullmatch(name))
+        out = said or name in self.facts.assigned
         return f"{'digital' if kind == 'dio' else 'analog'}_{'out' if out else 'in'}"
 
     # ---- components and lists

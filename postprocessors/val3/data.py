@@ -44,6 +44,7 @@ class Store:
         self.data: dict[str, Datum] = {}
         self.made: dict[tuple[str, ...], str] = {}
         self.helpers: dict[tuple[str, ...], str] = {}
+        self.unlinked: list[str] = []  # signals without a terminal
         self.lost: set[str] = set()  # names of the program that could not be declared
         self.unwritten: set[str] = set()  # routines whose parameters could not be declared
 
@@ -77,13 +78,11 @@ class Store:
         return self.helpers[key]
 
     def signal(self, name: str, kind: str) -> str:
-        """A signal that the program names: it is declared, and wired to the next place of its kind."""
+        """A signal that the program names is declared. Which terminal it is only the cell knows: it is linked there."""
         if name not in self.data:
-            letter = "Q" if kind.endswith("out") else "I"
-            used = sum(f"%{letter}" in row for datum in self.data.values() for row in datum.values)
-            type, rack = ("dio", "BasicIO-1") if kind.startswith("digital") else ("aio", "AnalogIO-1")
             self.taken.add(name)
-            self.add(Datum(name, type, [f'link="{rack}\\%{letter}{used}"']))
+            self.add(Datum(name, "dio" if kind.startswith("digital") else "aio"))
+            self.unlinked.append(name)
         return name
 
     def descriptor(self, vel: float, tmax: float, blend: str, leave: float, strengths: tuple[float, float]) -> str:

@@ -22,6 +22,13 @@ from .passes.pulses import pulses_as_tasks
 from .passes.waits import waits_put_in
 from .statements import Statements, indented
 
+UNLINKED = code(
+    "val3-signals-not-linked",
+    Severity.WARNING,
+    "{names}: declared without a terminal, which a program of another controller does not know; without a link the "
+    "controller refuses to use one",
+    "link each to its terminal in the controller's list of inputs and outputs before the program runs",
+)
 LOST = code("val3-lost-declaration", Severity.LOSS, "VAL3 cannot declare {name}: {reason}", "what uses it will not run")
 _ENTRY, _END = "start", "stop"
 _ATTRIBUTE_SIGNS = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": " "})
@@ -66,6 +73,9 @@ class _Application:
         if _ENTRY not in programs:
             calls = [f"{self.say('step')}call {self.entry}()"] if self.entry else []
             programs[_ENTRY] = self.say("program", name=_ENTRY, parameters=[], locals=[], lines=calls)
+        if self.store.unlinked:
+            names = ", ".join(self.store.unlinked)
+            self.diagnostics.report(UNLINKED, self.program.modules[0].origin, names=names)
         programs.setdefault(_END, self.say("program", name=_END, parameters=[], locals=[], lines=[]))
         self.ledger.check(self.program)
         name = self.program.modules[0].name if self.program.modules else "application"

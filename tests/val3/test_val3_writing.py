@@ -77,9 +77,17 @@ def test_what_the_program_names_is_declared() -> None:
     declared = set(re.findall(r'<Data name="(\w+)"', data))
     for name in ("do2", "di1", "tTool", "mL200"):
         assert name in lines and name in declared
-    assert re.search(r'name="do2"[^>]*type="dio".*\n.*%Q', data) and re.search(
-        r'name="di1"[^>]*type="dio".*\n.*%I', data
-    )
+    assert re.search(r'name="do2"[^>]*type="dio"', data) and re.search(r'name="di1"[^>]*type="dio"', data)
+
+
+def test_no_terminal_is_guessed_for_a_signal() -> None:
+    """Which valve hangs at which terminal only the cell knows; without a link the controller refuses the signal."""
+    found = Diagnostics()
+    program = read_sources([source_from_text("job.src", KRL % "$OUT[2]=TRUE\nWAIT FOR $IN[1]")], "krl", found)
+    files = translate_program(program, "val3", ROBOT, None, found).files
+    assert not any(b"link=" in file.data for file in files)
+    (told,) = [item for item in found if item.code.name == "val3-signals-not-linked"]
+    assert "do2" in told.message and "di1" in told.message
 
 
 FROM_HERE = (
