@@ -145,8 +145,8 @@ def test_poses_are_in_the_coordinates_of_the_controller(name: str, height: float
 
 def test_arms_of_one_maker_count_from_the_same_place() -> None:
     files = [read_robot_file(name) for name in robot_names()]
-    assert {file.maker for file in files if file.origin_at_axis_2} == {"FANUC", "Yaskawa"}
-    assert all(file.origin_at_axis_2 for file in files if file.maker in ("FANUC", "Yaskawa"))
+    assert {file.maker for file in files if file.origin_at_axis_2} == {"FANUC", "Stäubli", "Yaskawa"}
+    assert all(file.origin_at_axis_2 for file in files if file.maker in ("FANUC", "Stäubli", "Yaskawa"))
 
 
 def built(file: RobotFile) -> list[Joint]:

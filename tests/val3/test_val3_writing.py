@@ -47,7 +47,7 @@ CASES = {
     "an output behind a movement": ("$OUT[2]=TRUE", "waitEndMove()\n  do2=true"),
     "a wait at an input": ("WAIT FOR $IN[1]", "waitEndMove()\n  wait(di1)"),
     "a time": ("WAIT SEC 0.5", "waitEndMove()\n  delay(0.5)"),
-    "a pulse": ("PULSE($OUT[3],TRUE,0.5)", 'waitEndMove()\n  taskCreate "pulse1"'),
+    "a pulse": ("PULSE($OUT[3],TRUE,0.5)", 'waitEndMove()\n  do3=true\n  taskCreate "pulse1"'),
     "a way from where the robot is, in the axes of the tool": (
         "IF $IN[1] THEN\nLIN XP\nENDIF\nPTP {A1 10}\nLIN_REL {X 20} #TOOL",
         "waitEndMove()\n  movel(appro(here(tTool,world)",

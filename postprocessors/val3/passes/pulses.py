@@ -1,4 +1,4 @@
-"""Pulses of outputs: VAL3 has none, so a task sets the output, waits and sets it back, while the program goes on.
+"""Pulses of outputs: VAL3 has none, so the program sets the output, and a task waits and sets it back meanwhile.
 
 One program for each output, level and length; a pulse that begins before the one before it has ended is left out by the
 controller (M: a task of that name exists).
@@ -31,7 +31,9 @@ def pulses_as_tasks(program: ir.Program) -> ir.Program:
     def change(statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.Pulse() if statement in made:
-                return (ir.TaskControl("start", made[statement], origin=statement.origin),)
+                begun = ir.Assign(statement.signal, statement.value, origin=statement.origin)
+                rest = replace(statement.origin, comments=())
+                return (begun, ir.TaskControl("start", made[statement], origin=rest))
         return (rewrite_parts(statement, lambda one: one, lambda body: map_body(body, change)),)
 
     done = edit_all(program, lambda body: map_body(body, change))
@@ -48,5 +50,4 @@ def _is_plain(pulse: ir.Pulse) -> bool:
 def _routine(name: str, pulse: ir.Pulse) -> ir.Routine:
     assert isinstance(pulse.value, ir.BoolLiteral)  # only such pulses are collected
     ends_at = ir.BoolLiteral(not pulse.value.value)
-    body = (ir.Assign(pulse.signal, pulse.value), ir.Wait(pulse.duration), ir.Assign(pulse.signal, ends_at))
-    return ir.Routine(name, body=body, scope="global")
+    return ir.Routine(name, body=(ir.Wait(pulse.duration), ir.Assign(pulse.signal, ends_at)), scope="global")
