@@ -9,7 +9,7 @@ import html
 import re
 from collections.abc import Iterator
 
-from rpl.reading.pieces import COMMENT, LAYOUT, STATEMENT, Piece
+from rpl.reading.pieces import AROUND, COMMENT, STATEMENT, Piece
 from rpl.source import Source
 
 from .facts import Header
@@ -29,16 +29,16 @@ def split(source: Source, headers: tuple[Header, ...]) -> Iterator[Piece]:
     """The pieces of a file."""
     at = 0
     for header in headers:
-        yield from _layout(source, at, header.start)
+        yield from _around(source, at, header.start)
         for match in _LINE.finditer(source.text, header.start, header.end):
             yield from _line(match[0], match.start(), header.plain)
         at = header.end
-    yield from _layout(source, at, len(source.text))
+    yield from _around(source, at, len(source.text))
 
 
-def _layout(source: Source, start: int, end: int) -> Iterator[Piece]:
+def _around(source: Source, start: int, end: int) -> Iterator[Piece]:
     if source.text[start:end].strip(_BLANKS + "\r\n"):
-        yield Piece(LAYOUT, start, end, "")
+        yield Piece(AROUND, start, end, "")
 
 
 def _line(line: str, start: int, plain: bool) -> Iterator[Piece]:

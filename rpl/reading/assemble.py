@@ -15,6 +15,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.passes.collector import paused_cycle_collector
 from rpl.reading.ledger import LOWERED, REPORTED, TRIVIA, FileReport, Ledger
 from rpl.reading.pieces import (
+    AROUND,
     BLANK,
     COMMENT,
     LAYOUT,
@@ -128,10 +129,11 @@ class _Assembler:
     def take(self, piece: Piece) -> None:
         if piece.kind == BLANK:
             return
+        if piece.kind == AROUND:
+            self.ledger.claim(piece.start, piece.end, TRIVIA)
+            return
         if piece.kind in (COMMENT, LAYOUT):
             self.ledger.claim(piece.start, piece.end, TRIVIA)
-            if piece.kind == LAYOUT and not piece.text:  # what stands around the program, such as an XML header
-                return
             if not self.comments:
                 self.comment_start = piece.start
             self.comments.append(Comment(piece.text, layout=piece.kind == LAYOUT))

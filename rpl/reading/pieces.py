@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from rpl.ir import Declaration, Routine, Statement
 from rpl.source import Origin
 
-STATEMENT, COMMENT, LAYOUT, BLANK = "statement", "comment", "layout", "blank"
+STATEMENT, COMMENT, LAYOUT, AROUND, BLANK = "statement", "comment", "layout", "around", "blank"
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +15,8 @@ class Piece:
     """One logical piece of a source: offsets of its span, the text to parse (joined where the language goes on over
     lines), and the comment that stands behind it on its line (text without the sign; its span is part of the piece).
 
-    kind: STATEMENT, COMMENT (text is the remark), LAYOUT (header, fold, attribute lines: text is kept), BLANK.
+    kind: STATEMENT, COMMENT (text is the remark), LAYOUT (header, fold, attribute lines: text is kept), AROUND
+    (what stands around the program and is no remark of it, such as an XML header), BLANK.
     """
 
     kind: str

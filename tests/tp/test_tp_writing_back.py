@@ -24,6 +24,7 @@ P[5]{ GP1: UF : 1, UT : 2, CONFIG : 'N U T, 0, 0, 0', X = 600.0 mm, Y = 0.0 mm, 
 """
 
 SAME = [
+    "!\n!the part comes\n!\nUFRAME_NUM=1",  # lines between the parts of a program
     "UFRAME_NUM=2",
     "UTOOL_NUM=R[4]",
     "UFRAME[3]=PR[5]",
