@@ -353,12 +353,12 @@ class Hoister:
         return (*done[:-1], replace(last, search=rewrite_parts(search, self.flat)))
 
     def _if(self, statement: ir.If) -> ir.Body:
-        lowered = [(self.condition(condition), body) for condition, body in statement.branches]
+        lowered = [(self.condition(condition), self.body(body)) for condition, body in statement.branches]
         branches: list[tuple[ir.Expression, ir.Body]] = []
         otherwise = self.body(statement.otherwise)
         for at in range(len(lowered) - 1, -1, -1):
             (before, condition), body = lowered[at]
-            branches.insert(0, (condition, self.body(body)))
+            branches.insert(0, (condition, body))
             if before and at > 0:
                 chain = ir.If(tuple(branches), otherwise, origin=replace(statement.origin, comments=()))
                 otherwise = self._finished(chain, before, chain)
@@ -382,8 +382,8 @@ class Hoister:
         return (ir.Loop((*self.ready(before), *self.failed(), leave, *body), origin=statement.origin),)
 
     def _repeat(self, statement: ir.Repeat) -> ir.Body:
-        before, until = self.condition(statement.until)
         body = self.body(statement.body)
+        before, until = self.condition(statement.until)
         if not before:
             same = until is statement.until and body is statement.body
             return (statement if same else replace(statement, until=until, body=body),)
