@@ -72,7 +72,7 @@ class _Dialogs(Rewriter):
                 answer = self.temporary(_TYPES[name.lower()], "answer")
                 asked = _asked(expression, answer)
                 if asked is None:
-                    self.locals.pop()
+                    self.editor.added.pop()
                     return expression
                 self.before.extend(asked)
                 return answer

@@ -14,16 +14,8 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything, statements_in
-from rpl.passes.legalise.rewriting.editing import (
-    Editor,
-    Hoister,
-    Lowered,
-    edit_bodies,
-    edit_routines,
-    expansion,
-    map_body,
-    written_arguments,
-)
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered, written_arguments
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts

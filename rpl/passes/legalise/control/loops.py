@@ -17,6 +17,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.counters import declared_loops, jumps_about, overwritten, used_outside_loops
 from rpl.passes.legalise.facts.effects import everything, is_constant, statements_in
 from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression
+from rpl.passes.legalise.rewriting.bodies import written_arguments
 from rpl.passes.legalise.rewriting.editing import (
     Editor,
     edit_bodies,
@@ -26,7 +27,6 @@ from rpl.passes.legalise.rewriting.editing import (
     map_body,
     negation,
     passes_on,
-    written_arguments,
 )
 from rpl.passes.legalise.rewriting.jumps import entered
 from rpl.passes.legalise.stages import legalising

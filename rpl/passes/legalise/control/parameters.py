@@ -18,15 +18,8 @@ from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import children, everything, is_constant, statements_in
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.arraycopies import array_copy
-from rpl.passes.legalise.rewriting.editing import (
-    Editor,
-    Hoister,
-    Lowered,
-    edit_bodies,
-    edit_routines,
-    expansion,
-    map_body,
-)
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import goes_on, inside
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
@@ -251,11 +244,11 @@ class _Calls(Hoister):
         kept = self.editor.temporary("result", type)
         return (*before, ir.Assign(kept, call), *behind), kept
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.CallRoutine(dynamic=None):
                 plan = self.plan_of(statement.name)
-                done = super().statement(statement)
+                done = super().placed(statement)
                 last = done[-1]
                 if plan is None or not isinstance(last, ir.CallRoutine):
                     return done
@@ -265,7 +258,7 @@ class _Calls(Hoister):
             case ir.CallRoutine(arguments=arguments) if arguments and self.all_numbered(len(arguments)):
                 before, passed = self.simple_arguments(arguments)
                 call = replace(statement, arguments=passed)
-                return expansion(statement.origin, (*before, *super().statement(call)))
+                return expansion(statement.origin, (*before, *super().placed(call)))
             case ir.CallRoutine(arguments=arguments) if arguments:
                 self.refused(
                     statement,
@@ -282,7 +275,7 @@ class _Calls(Hoister):
                 plan = self.plan_of(task)
                 if plan is not None and plan.variables:
                     self.refused(statement, task, "it starts beside the program")
-        return super().statement(statement)
+        return super().placed(statement)
 
     def all_numbered(self, count: int) -> bool:
         """Does every routine that takes so many arguments take them by value in argument registers?"""

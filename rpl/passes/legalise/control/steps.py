@@ -17,15 +17,8 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.spread import is_computed, reads, spread
 from rpl.passes.legalise.facts.effects import children, everything, is_constant
 from rpl.passes.legalise.facts.usage import assigned_in
-from rpl.passes.legalise.rewriting.editing import (
-    Editor,
-    Hoister,
-    Lowered,
-    edit_bodies,
-    edit_routines,
-    expansion,
-    negation,
-)
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, negation
 from rpl.passes.legalise.rewriting.operands import changing, is_number, is_operand, opposite, stands_still
 from rpl.passes.legalise.rewriting.walk import POLL_S, POLLED
 from rpl.passes.legalise.stages import legalising
@@ -97,7 +90,7 @@ class _Steps(Hoister):
     def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
         """The expression where it is one part of something: an operand, an argument, a subscript."""
         if isinstance(expression, ir.Binary) and expression.op in ("cand", "cor") and not self.by_steps:
-            return self._deciding(expression)
+            return self.deciding(expression)
         expression = _plain_number(expression)
         if is_operand(expression):
             return (), expression
@@ -352,7 +345,7 @@ class _Steps(Hoister):
 
     # ---- statements
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         since = len(self.lent)
         done = self.stepped(statement)
         self.give_back(since)
@@ -362,35 +355,25 @@ class _Steps(Hoister):
         match statement:
             case ir.Assign(target=target, value=value):
                 return self.assigned(statement, target, value)
-            case ir.For():
-                return self.counted(statement)
             case ir.WaitUntil():
                 return self.waiting(statement)
             case ir.Message() if MessageRule.COMPUTED not in self.can.texts.messages:
                 return (statement,)  # its values are variables that the text names
         if isinstance(statement, _STRUCTURES):
-            return super().statement(statement)
+            return super().placed(statement)
         if Limit.PLAIN_PLACES not in self.can.control.limits and not self.by_steps:
-            return super().statement(statement)
+            return super().placed(statement)
         self.simple_parts = True
-        done = super().statement(statement)
+        done = super().placed(statement)
         self.simple_parts = False
         return done
 
-    def counted(self, statement: ir.For) -> ir.Body:
+    def bounds(self, given: list[ir.Expression]) -> tuple[ir.Body, list[ir.Expression]]:
         """Bounds are read once, but a loop made of labels reads them again: their temporaries last."""
-        given = [statement.start, statement.stop] + ([] if statement.step is None else [statement.step])
         self.lasting, self.simple_parts = True, self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits
-        before, values = self.several(given, [False] * len(given))
+        done = super().bounds(given)
         self.lasting = self.simple_parts = False
-        with self.editor.counting(statement):
-            body = self.body(statement.body)
-        if body is statement.body and all(new is old for new, old in zip(values, given, strict=True)):
-            return (statement,)
-        step = values[2] if len(values) > 2 else None
-        return self._finished(
-            statement, before, replace(statement, start=values[0], stop=values[1], step=step, body=body)
-        )
+        return done
 
     def _move(self, statement: ir.Move, search: ir.Search | None) -> ir.Body:
         """The target of a move may be what only a move can say."""
@@ -404,7 +387,7 @@ class _Steps(Hoister):
         if not first and target is statement.target and via is statement.via and last.target is _HELD:
             same = replace(last, target=target, via=via)
             return (statement if same == statement else same,)
-        return self._finished(statement, first, replace(last, target=target, via=via))
+        return self.expanded(statement, first, replace(last, target=target, via=via))
 
     def at_move(self, target: ir.Expression) -> Lowered:
         says = self.can.places.move_functions
@@ -422,7 +405,7 @@ class _Steps(Hoister):
             return self.operand(target)
         return self.lower(target)
 
-    def _switch(self, statement: ir.Switch) -> ir.Body:
+    def switch(self, statement: ir.Switch) -> ir.Body:
         simple = self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits
         before, selector = self.operand(statement.selector) if simple else self.lower(statement.selector)
         if self.can.control.switch_variables and self.is_signal(selector):
@@ -430,7 +413,7 @@ class _Steps(Hoister):
             before, selector = (*before, ir.Assign(kept, selector)), kept
         cases = tuple(replace(case, body=self.body(case.body)) for case in statement.cases)
         default = None if statement.default is None else self.body(statement.default)
-        return self._finished(statement, before, replace(statement, selector=selector, cases=cases, default=default))
+        return self.expanded(statement, before, replace(statement, selector=selector, cases=cases, default=default))
 
     def is_signal(self, value: ir.Expression) -> bool:
         symbol = self.editor.scope.value(value.id) if isinstance(value, ir.Name) else None
@@ -444,7 +427,7 @@ class _Steps(Hoister):
             if parts is not None:
                 return expansion(statement.origin, (*first, *self.several_steps(parts))) or (ir.Nothing(),)
             first, value = self.stored(first, value)
-            return self._finished(statement, first, replace(statement, target=place, value=value))
+            return self.expanded(statement, first, replace(statement, target=place, value=value))
         value = _plain_number(value)
         if isinstance(target, ir.Signal) and Limit.PLAIN_PLACES in self.can.control.limits:
             before, value = self.operand(value)
@@ -458,7 +441,7 @@ class _Steps(Hoister):
             before, value = self.whole(value)
         if place is target and value is statement.value:
             return (statement,)
-        return self._finished(statement, (*first, *before), replace(statement, target=place, value=value))
+        return self.expanded(statement, (*first, *before), replace(statement, target=place, value=value))
 
     def waiting(self, statement: ir.WaitUntil) -> ir.Body:
         """The condition is looked at while waiting: only what stands still may be computed before."""
@@ -469,7 +452,7 @@ class _Steps(Hoister):
             limit = () if statement.timeout is None else (statement.timeout,)
             further, values = self.operand(limit[0]) if limit else ((), None)
             new = replace(statement, condition=condition, timeout=values)
-            return self._finished(statement, (*before, *further), new)
+            return self.expanded(statement, (*before, *further), new)
         shortest = self.can.io.shortest_wait_s or POLL_S
         period = ir.RealLiteral(round(round(POLL_S / shortest) * shortest, 6))
         self.editor.context.diagnostics.report(POLLED, statement.origin, seconds=period.value)

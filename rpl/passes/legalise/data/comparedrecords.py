@@ -13,7 +13,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typewords import component_names, component_type
 

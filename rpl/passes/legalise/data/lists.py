@@ -14,7 +14,8 @@ from itertools import product
 from rpl import ir
 from rpl.passes.capabilities import Passing
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
 
 
@@ -35,10 +36,10 @@ class _Lists(Hoister):
         super().__init__(editor, lambda _: None)
         self.wanted: dict[int, ir.ArrayType] = {}
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.CallRoutine) and statement.dynamic is None:
             self.note(statement.name, statement.arguments)
-        return super().statement(statement)
+        return super().placed(statement)
 
     def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
         match expression:

@@ -113,7 +113,7 @@ class _Split(Rewriter):
             return _INT
         return super().counter_type(statement)
 
-    def counting(self, statement: ir.For) -> list[ir.Statement]:
+    def counting(self, statement: ir.For) -> ir.Body:
         """A whole counter goes to a whole bound: the last one that it can reach."""
         fractional = not self.is_int(statement.stop) and isinstance(self.type_of(statement.stop), ir.RealType)
         if not fractional or not self.whole_counter(statement):
@@ -125,7 +125,7 @@ class _Split(Rewriter):
         else:
             last = self.library.call("ceil" if step is not None and step < 0 else "floor", stop)
         done = super().counting(statement)
-        return [replace(one, stop=last) if isinstance(one, ir.For) else one for one in done]
+        return tuple(replace(one, stop=last) if isinstance(one, ir.For) else one for one in done)
 
     def whole_counter(self, statement: ir.For) -> bool:
         if statement.scoped:

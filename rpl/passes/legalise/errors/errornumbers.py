@@ -97,14 +97,14 @@ class _Named(Rewriter):
             return [replace(statement, code=self.named(statement.code))]
         return super().statement(statement)
 
-    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Switch) and statement.selector == _NUMBER:
             cases = tuple(replace(case, values=tuple(map(self.named, case.values))) for case in statement.cases)
             statement = replace(statement, cases=cases)
         return super().placed(statement)
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
-        self.scope = self.scopes.routine(module, routine)
+        self.enter(self.scopes.routine(module, routine))
         handlers = tuple(replace(one, codes=tuple(map(self.named, one.codes))) for one in routine.handlers)
         return super().routine(module, replace(routine, handlers=handlers))
 
@@ -186,14 +186,14 @@ class _Numbers(Rewriter):
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         handlers = routine.handlers
         done = super().routine(module, replace(routine, handlers=()))
-        self.scope, self.locals = self.scopes.routine(module, routine), []
+        self.enter(self.scopes.routine(module, routine))
         kept = []
         for one in handlers:
             code = one.codes[0] if len(one.codes) == 1 else None
             self.caught = code.id if isinstance(code, ir.Name) and self.errors.is_error(code, self.scope) else None
             kept.append(replace(one, body=self.body(one.body)))
         self.caught = None
-        return replace(done, handlers=tuple(kept), declarations=(*done.declarations, *self.locals))
+        return self.editor.closed(replace(done, handlers=tuple(kept)))
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         sides = _same(expression)
@@ -216,11 +216,11 @@ class _Numbers(Rewriter):
                 return [statement]
         return super().statement(statement)
 
-    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Switch) and statement.selector == _NUMBER:
             cases = tuple(replace(case, body=self.body(case.body)) for case in statement.cases)
             default = None if statement.default is None else self.body(statement.default)
-            return [replace(statement, cases=cases, default=default)]
+            return (replace(statement, cases=cases, default=default),)
         return super().placed(statement)
 
 

@@ -7,6 +7,7 @@ facts. They are conservative: what is not known to be harmless counts as harmful
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 
 from rpl import ir
 from rpl.ir.walk import bodies
@@ -107,24 +108,20 @@ class Effects:
     """Facts about the routines of a program, by folded name."""
 
     def __init__(self, program: ir.Program) -> None:
-        self._routines: dict[str, list[ir.Routine]] = {}
-        for module in program.modules:
-            for routine in module.routines:
-                self._routines.setdefault(routine.name.lower(), []).append(routine)
-        self._quiet: set[str] = {name for name, found in self._routines.items() if all(map(_could_be_quiet, found))}
-        size = -1
-        while size != len(self._quiet):  # greatest fixed point: recursion does not make a function harmful
-            size = len(self._quiet)
-            self._quiet = {name for name in self._quiet if all(map(self._calls_quiet, self._routines[name]))}
+        self._program = program
 
-    def _calls_quiet(self, routine: ir.Routine) -> bool:
-        return all(
-            not isinstance(one, ir.Call) or one.name.lower() in self._quiet
-            for body in bodies(routine)
-            for statement in statements_in(body)
-            for child in children(statement)
-            for one in everything(child)
-        )
+    @cached_property
+    def _quiet(self) -> set[str]:
+        routines: dict[str, list[ir.Routine]] = {}
+        for module in self._program.modules:
+            for routine in module.routines:
+                routines.setdefault(routine.name.lower(), []).append(routine)
+        quiet = {name for name, found in routines.items() if all(map(_could_be_quiet, found))}
+        size = -1
+        while size != len(quiet):  # greatest fixed point: recursion does not make a function harmful
+            size = len(quiet)
+            quiet = {name for name in quiet if all(_calls_quiet(one, quiet) for one in routines[name])}
+        return quiet
 
     def add_quiet(self, name: str) -> None:
         """A generated routine that changes nothing but its own output parameters."""
@@ -174,6 +171,16 @@ class Effects:
             if not all(self.quiet_body(inner, own) for inner in blocks(statement)):
                 return False
         return True
+
+
+def _calls_quiet(routine: ir.Routine, quiet: set[str]) -> bool:
+    return all(
+        not isinstance(one, ir.Call) or one.name.lower() in quiet
+        for body in bodies(routine)
+        for statement in statements_in(body)
+        for child in children(statement)
+        for one in everything(child)
+    )
 
 
 def _zero(expression: ir.Expression) -> bool:

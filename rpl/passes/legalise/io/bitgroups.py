@@ -16,7 +16,8 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.statements.polling import polled
 
@@ -260,13 +261,13 @@ class _Bits(Hoister):
             done = part if done is None else ir.Binary("or" if differs else "and", done, part, origin=expression.origin)
         return done
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.WaitUntil() if self.looks(statement.condition):
                 return self.waited(statement)
             case ir.Assign(target=target, value=value) if bits := self.bits(target):
                 return self.written(statement, bits, value)
-        return super().statement(statement)
+        return super().placed(statement)
 
     def looks(self, condition: ir.Expression) -> bool:
         """Does the condition read a group that is taken apart?"""

@@ -1,12 +1,12 @@
-"""Rewriting a whole program with symbol tables at hand, and computing beforehand what an expression cannot say.
+"""Rewriting a whole program, its declarations and types too, with symbol tables at hand.
 
 A pass subclasses `Rewriter` and overrides `expression`, `statement`, `declaration` or `type`; it is given old nodes and
-asks for the types of old expressions. What a rewritten expression needs first goes to `self.before`; it is placed so
-that it runs as often as the expression did (also for the condition of a loop).
+asks for the types of old expressions. What a rewritten expression needs first goes to `self.before`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
@@ -14,10 +14,14 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.beginning import settled_at_start
+from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.legalise.rewriting.bodies import Bodies, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies
 from rpl.passes.rewrite import changed, rewrite_parts, same
+from rpl.passes.scope import Scope
 from rpl.passes.typewords import word_type
-from rpl.passes.typing import counter_type, type_of
+from rpl.passes.typing import type_of
 
 EARLY = code(
     "condition-read-once",
@@ -34,17 +38,25 @@ POLLED = code(
 POLL_S = 0.012
 
 
-class Rewriter:
-    """One pass over one program. `scope` is where the rewriting is just now."""
+class Rewriter(Bodies):
+    """One pass over one program."""
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         self.source, self.context = program, context
-        self.scopes = ProgramScope(program)
+        self.scopes, self.effects = ProgramScope(program), Effects(program)
         self.before: list[ir.Statement] = []
-        self.locals: list[ir.Variable] = []
         self.made_loops = False
         if program.modules:
-            self.scope = self.scopes.module(program.modules[0])
+            self.enter(self.scopes.module(program.modules[0]))
+
+    def enter(self, scope: Scope) -> None:
+        """Go on with a module or a routine."""
+        self.editor = Editor(self.context, self.effects, scope)
+
+    @property
+    def scope(self) -> Scope:
+        """Where the rewriting is just now."""
+        return self.editor.scope
 
     # ---- what a pass overrides
 
@@ -56,6 +68,11 @@ class Rewriter:
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         """An expression in its new form."""
+        if expression.__class__ is ir.Binary and expression.op in ("cand", "cor"):
+            outside, self.before = self.before, []
+            before, done = self.deciding(expression)
+            self.before = [*outside, *before]
+            return done
         return rewrite_parts(expression, self.expression)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
@@ -97,9 +114,7 @@ class Rewriter:
 
     def temporary(self, type: ir.Type, stem: str = "tmp") -> ir.Name:
         """A new variable of the routine (of the module, outside of routines)."""
-        name = self.context.fresh(stem)
-        self.locals.append(ir.Variable(name, type, scope="routine"))
-        return ir.Name(name)
+        return self.editor.temporary(stem, type)
 
     # ---- program, module, routine
 
@@ -108,90 +123,67 @@ class Rewriter:
         return changed(self.source, modules=tuple(self.module(module) for module in self.source.modules))
 
     def module(self, module: ir.Module) -> ir.Module:
-        self.scope, self.locals = self.scopes.module(module), []
+        self.enter(self.scopes.module(module))
         declarations = [new for old in module.declarations for new in self.declaration(old)]
-        declarations.extend(replace(one, scope="module") for one in self.locals)
+        declarations.extend(replace(one, scope="module") for one in self.editor.added)
         routines = tuple(self.routine(module, routine) for routine in module.routines)
         return changed(module, declarations=tuple(declarations), routines=routines)
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
-        self.scope, self.locals = self.scopes.routine(module, routine), []
-        declarations = [new for old in routine.declarations for new in self.declaration(old)]
+        self.enter(self.scopes.routine(module, routine))
         done = changed(
             routine,
-            parameters=tuple(changed(one, type=self.type(one.type)) for one in routine.parameters),
+            declarations=tuple([new for old in routine.declarations for new in self.declaration(old)]),
+            parameters=tuple([changed(one, type=self.type(one.type)) for one in routine.parameters]),
             returns=None if routine.returns is None else self.type(routine.returns),
-            body=self.body(routine.body),
-            handlers=tuple(
-                changed(one, codes=tuple(map(self.expression, one.codes)), body=self.body(one.body))
-                for one in routine.handlers
-            ),
-            undo=self.body(routine.undo),
-            backward=self.body(routine.backward),
+            handlers=tuple([changed(one, codes=tuple(map(self.expression, one.codes))) for one in routine.handlers]),
         )
-        return changed(done, declarations=(*declarations, *self.locals))
+        return self.editor.closed(edit_bodies(done, self.body))
 
     # ---- bodies
 
     def body(self, body: ir.Body) -> ir.Body:
         outside, self.before = self.before, []
-        done = [new for statement in body for new in self.placed(statement)]
+        done = super().body(body)
         self.before = outside
-        return body if same(body, done) else tuple(done)
+        return done
 
     def actions(self, body: ir.Body) -> ir.Body:
         """Statements that cannot become several: actions of triggers and interrupts, the inside of a spline."""
         done = [rewrite_parts(statement, self.expression, self.actions) for statement in body]
         return body if same(body, done) else tuple(done)
 
-    def taken(self) -> list[ir.Statement]:
+    def taken(self) -> ir.Body:
         """What must run first, taken off the list."""
+        if not self.before:
+            return ()
         found, self.before = self.before, []
-        return found
+        return tuple(found)
 
-    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
-        match statement:
-            case ir.While(condition=condition, body=body):
-                return _in_order(self.loop(statement, self.expression(condition), body), statement)
-            case ir.Repeat(until=until, body=body):
-                inner = self.body(body)
-                until = self.expression(until)
-                return [changed(statement, until=until, body=(*inner, *_bare(self.taken())))]
-            case ir.Loop(body=body):
-                return [changed(statement, body=self.body(body))]
-            case ir.For():
-                return self.counting(statement)
-            case ir.If(branches=branches, otherwise=otherwise):
-                return _in_order(self.choice(list(branches), otherwise, statement), statement)
-            case ir.Switch(selector=selector, cases=cases, default=default):
-                chosen = self.expression(selector)
-                values = [tuple(map(self.expression, case.values)) for case in cases]
-                first = self.taken()
-                new = tuple(
-                    changed(case, values=value, body=self.body(case.body))
-                    for case, value in zip(cases, values, strict=True)
-                )
-                other = None if default is None else self.body(default)
-                return _in_order([*first, changed(statement, selector=chosen, cases=new, default=other)], statement)
-            case ir.WaitUntil():
-                return self.waiting(statement, self.statement(statement))
-            case ir.DeclareInterrupt() | ir.OrderInterrupt() | ir.Trigger():
-                done = self.statement(statement)
-                first = self.taken()
-                if first:
-                    self.context.diagnostics.report(EARLY, statement.origin)
-                return _in_order([*first, *done], statement)
+    def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
+        done = self.expression(expression)
+        return self.taken(), done
+
+    def several(self, parts: Sequence[ir.Expression], in_place: Sequence[bool]) -> tuple[ir.Body, list[ir.Expression]]:
+        done = list(map(self.expression, parts))
+        return self.taken(), done
+
+    def single(self, statement: ir.Statement) -> ir.Body:
         done = self.statement(statement)
-        return _in_order([*self.taken(), *done], statement)
+        first = self.taken()
+        if isinstance(statement, ir.WaitUntil):
+            return self.waiting(statement, (*first, *done[:-1]), done[-1])
+        if first and isinstance(statement, ir.DeclareInterrupt | ir.OrderInterrupt | ir.Trigger):
+            self.context.diagnostics.report(EARLY, statement.origin)
+        return _in_order((*first, *done), statement)
 
-    def waiting(self, statement: ir.WaitUntil, done: list[ir.Statement]) -> list[ir.Statement]:
+    def waiting(self, statement: ir.WaitUntil, first: ir.Body, wait: ir.Statement) -> ir.Body:
         """A wait; one whose condition needs statements first is a loop that computes it again and again."""
-        first, wait = [*self.taken(), *done[:-1]], done[-1]
         if not first or not isinstance(wait, ir.WaitUntil):
-            return _in_order([*first, wait], statement)
+            return _in_order((*first, wait), statement)
         if wait.timeout is not None and wait.timed_out is None:
             self.context.diagnostics.report(EARLY, statement.origin)
-            return _in_order([*first, wait], statement)
+            return _in_order((*first, wait), statement)
         shortest = self.context.capabilities.io.shortest_wait_s or POLL_S
         period = ir.RealLiteral(round(round(POLL_S / shortest) * shortest, 6))
         self.context.diagnostics.report(POLLED, statement.origin, seconds=period.value)
@@ -208,49 +200,12 @@ class Rewriter:
             late.append(ir.If(((ir.Binary(">=", waited, limit), over),)))
             late.append(ir.Assign(waited, ir.Binary("+", waited, period)))
         self.made_loops = True
-        return _in_order([*before, ir.Loop((*_bare(first), leave, *late, pause))], statement)
+        return _in_order((*before, ir.Loop((*_bare(first), leave, *late, pause))), statement)
 
-    def loop(self, statement: ir.While, condition: ir.Expression, body: ir.Body) -> list[ir.Statement]:
-        first = self.taken()
-        inner = self.body(body)
-        if not first:
-            return [changed(statement, condition=condition, body=inner)]
-        leave = ir.If(((ir.Unary("not", condition), (ir.ExitLoop(),)),))
-        self.made_loops = True
-        return [ir.Loop((*_bare(first), leave, *inner), origin=statement.origin)]
-
-    def counting(self, statement: ir.For) -> list[ir.Statement]:
-        outer = self.scope
-        start, stop = self.expression(statement.start), self.expression(statement.stop)
-        step = None if statement.step is None else self.expression(statement.step)
-        first = self.taken()
-        if statement.scoped:
-            self.scope = outer.with_value(ir.Variable(statement.counter, self.counter_type(statement)))
-        inner = self.body(statement.body)
-        self.scope = outer
-        return _in_order([*first, changed(statement, start=start, stop=stop, step=step, body=inner)], statement)
-
-    def counter_type(self, statement: ir.For) -> ir.Type:
-        """The type of a counter that exists in its loop only."""
-        return counter_type(statement, self.scope)
-
-    def choice(
-        self, branches: list[tuple[ir.Expression, ir.Body]], otherwise: ir.Body, statement: ir.If
-    ) -> list[ir.Statement]:
-        """A chain of conditions; one that needs statements first begins a chain inside the ELSE of the last."""
-        done: list[tuple[ir.Expression, ir.Body]] = []
-        first: list[ir.Statement] = []
-        for at, (old, body) in enumerate(branches):
-            condition = self.expression(old)
-            needed = self.taken()
-            if needed and done:
-                later = replace(statement, origin=replace(statement.origin, comments=()))
-                rest = self.choice(branches[at:], otherwise, later)
-                return [*first, replace(statement, branches=tuple(done), otherwise=tuple(_bare(rest)))]
-            first.extend(needed)
-            done.append((condition, self.body(body)))
-        chain = tuple(old if same(old, new) else new for old, new in zip(branches, done, strict=True))
-        return [*first, changed(statement, branches=chain, otherwise=self.body(otherwise))]
+    def loop(self, statement: ir.While) -> ir.Body:
+        done = super().loop(statement)
+        self.made_loops = self.made_loops or isinstance(done[0], ir.Loop)
+        return done
 
 
 def _seconds(time: ir.Expression) -> ir.Expression:
@@ -261,16 +216,16 @@ def _seconds(time: ir.Expression) -> ir.Expression:
     return time
 
 
-def _bare(statements: list[ir.Statement]) -> list[ir.Statement]:
+def _bare(statements: Sequence[ir.Statement]) -> list[ir.Statement]:
     return [replace(one, origin=replace(one.origin, comments=())) for one in statements]
 
 
-def _in_order(statements: list[ir.Statement], old: ir.Statement) -> list[ir.Statement]:
+def _in_order(statements: ir.Body, old: ir.Statement) -> ir.Body:
     """An expansion of `old`: all have its place, the first has its comments."""
     if len(statements) == 1:
         return statements
     later = replace(old.origin, comments=())
-    return [replace(one, origin=old.origin if at == 0 else later) for at, one in enumerate(statements)]
+    return tuple([replace(one, origin=old.origin if at == 0 else later) for at, one in enumerate(statements)])
 
 
 def unchanged_in(program: ir.Program, places: bool = False) -> Unchanged:

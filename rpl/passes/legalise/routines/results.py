@@ -8,16 +8,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything
-from rpl.passes.legalise.rewriting.editing import (
-    Editor,
-    Hoister,
-    Lowered,
-    Rule,
-    edit_bodies,
-    edit_routines,
-    expansion,
-    map_body,
-)
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered, Rule
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
@@ -75,15 +67,15 @@ class _Direct(Hoister):
         super().__init__(editor, rule)
         self.names = names
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.Assign(target=ir.Name(id=name) as target, value=ir.Call() as call) if self.private(name):
                 others = [one for child in children(call) for one in everything(child)]
                 used = any(isinstance(one, ir.Name) and one.id.lower() == name.lower() for one in others)
                 if call.name.lower() in self.names and not used:
                     arguments = (ir.Argument(target), *call.arguments)
-                    return super().statement(ir.CallRoutine(call.name, arguments, origin=statement.origin))
-        return super().statement(statement)
+                    return super().placed(ir.CallRoutine(call.name, arguments, origin=statement.origin))
+        return super().placed(statement)
 
     def private(self, name: str) -> bool:
         """A variable of the routine, which the called one cannot see."""

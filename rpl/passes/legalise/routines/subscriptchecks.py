@@ -15,7 +15,8 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import children
 from rpl.passes.legalise.facts.intervals import unproven
 from rpl.passes.legalise.facts.raising import raising_of
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
 
 _BESIDE = (ir.DeclareInterrupt, ir.ConnectInterrupt, ir.OrderInterrupt, ir.TaskControl, ir.Trigger, ir.DefineTrigger)
@@ -89,8 +90,8 @@ class Checks(Hoister):
         low = ir.Binary("<", value, ir.IntLiteral(base))
         return (ir.If(((ir.Binary("or", low, ir.Binary(">", value, high)), stop),)),)
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
-        done = super().statement(statement)
+    def placed(self, statement: ir.Statement) -> ir.Body:
+        done = super().placed(statement)
         if not isinstance(statement, _WATCHING):
             return done
         looked = [node for node in walk(tuple(children(statement))) if id(node) in self.found]

@@ -13,7 +13,8 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.raising import raising_of
 from rpl.passes.legalise.facts.usage import assigned_in
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
 
 _SIMPLE = (ir.Name, ir.IntLiteral, ir.TextLiteral)
@@ -104,7 +105,7 @@ class _Checks(Hoister):
             return False
         return (first.id.lower(), text.id.lower()) in self.counted
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.For(
                 counter=counter,
@@ -116,10 +117,10 @@ class _Checks(Hoister):
                 changed = {name.lower() for name in assigned_in(body)}
                 if not {counter.lower(), text.lower()} & changed:
                     self.counted.append((counter.lower(), text.lower()))
-                    done = super().statement(statement)
+                    done = super().placed(statement)
                     self.counted.pop()
                     return done
-        return super().statement(statement)
+        return super().placed(statement)
 
 
 def _upwards(step: ir.Expression | None) -> bool:

@@ -16,7 +16,8 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, is_constant
 from rpl.passes.legalise.rewriting import scanning
-from rpl.passes.legalise.rewriting.editing import Editor, Lowered, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.rewriting.bodies import Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.textparts import PUT
 from rpl.passes.legalise.routines.results import text_results
@@ -81,24 +82,24 @@ class _Calls(TextHoister):
 
     # ---- statements
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.Assign(target=ir.Index(base=base, indices=(place,)), value=sign) if self.cuts and isinstance(
                 self.editor.type_of(base), ir.StringType
             ):
                 put = self.helpers.call(PUT, base, place, sign)
-                return super().statement(ir.Assign(base, put, origin=statement.origin))
+                return super().placed(ir.Assign(base, put, origin=statement.origin))
             case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
                 routine = self.editor.scope.routine(name)
                 if routine is not None and routine.kind == "function" and routine.returns is not None:
                     unused = self.editor.temporary("unused", self.editor.scope.resolve(routine.returns))
                     call = ir.Assign(unused, ir.Call(name, arguments), origin=statement.origin)
-                    return super().statement(call)
+                    return super().placed(call)
             case ir.Do(procedure=procedure) if procedure not in self.capabilities.procedures:
                 done = self.procedure(statement)
                 if done is not None:
-                    return tuple(inner for one in done for inner in super(_Calls, self).statement(one))
-        return super().statement(statement)
+                    return tuple(inner for one in done for inner in super(_Calls, self).placed(one))
+        return super().placed(statement)
 
     def procedure(self, statement: ir.Do) -> ir.Body | None:
         """A built-in procedure as assignments."""
@@ -195,7 +196,7 @@ class _Calls(TextHoister):
         done = (call,) if has else self.procedure(call)
         if done is None or name not in _ALWAYS_WORK:
             return None
-        return tuple(inner for one in done for inner in super(_Calls, self).statement(one)), ir.BoolLiteral(True)
+        return tuple(inner for one in done for inner in super(_Calls, self).placed(one)), ir.BoolLiteral(True)
 
     def room_for(self, expression: ir.Builtin) -> ir.Expression | None:
         """Is there room for the longer text? None where its variable has no size of its own."""
@@ -234,7 +235,7 @@ class _Calls(TextHoister):
 
     def length_behind(self, expression: ir.Builtin) -> Lowered | None:
         """The length of a text behind appending to it; there is room enough in texts."""
-        statements = self.statement(ir.Do("text_append", expression.arguments, origin=expression.origin))
+        statements = self.placed(ir.Do("text_append", expression.arguments, origin=expression.origin))
         length = ir.Builtin("text_length", expression.arguments[:1], origin=expression.origin)
         first, value = self.ruled(length) or ((), length)
         return (*statements, *first), value

@@ -16,14 +16,8 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, blocks, is_constant, may_be_zero, statements_in
 from rpl.passes.legalise.facts.raising import Raising, raising_of
-from rpl.passes.legalise.rewriting.editing import (
-    Editor,
-    Hoister,
-    Lowered,
-    expansion,
-    map_body,
-    negation,
-)
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body, negation
 from rpl.passes.legalise.rewriting.support import default_value, with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.statements.knownerrors import settled
@@ -235,12 +229,12 @@ class _Passing(Hoister):
 
     # ---- statements
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         if blocks(statement):
-            return super().statement(statement)
+            return super().placed(statement)
         steps: list[ir.Statement] = []
         for one in self.explicit(statement):
-            steps.extend(super().statement(one) if not blocks(one) else (one,))
+            steps.extend(super().placed(one) if not blocks(one) else (one,))
         if not any(map(self.raises, steps)):
             return tuple(steps)
         return expansion(statement.origin, self.finished(tuple(steps)))
@@ -251,9 +245,9 @@ class _Passing(Hoister):
     def ready(self, before: ir.Body) -> ir.Body:
         return self.checked(before) if any(map(self.raises, before)) else before
 
-    def _finished(self, old: ir.Statement, before: ir.Body, new: ir.Statement) -> ir.Body:
+    def expanded(self, old: ir.Statement, before: ir.Body, new: ir.Statement) -> ir.Body:
         if blocks(new):
-            return super()._finished(old, before, new)
+            return super().expanded(old, before, new)
         # `statement` puts the checks behind the steps of a plain statement
         return expansion(old.origin, (*before, new)) if before else (new,)
 
@@ -332,7 +326,7 @@ class _Handling(_Passing):
             return ()
         return (ir.If(((ir.Unary("not", self._variables["passed"]), (ir.ExitLoop(),)),)),)
 
-    def _finished(self, old: ir.Statement, before: ir.Body, new: ir.Statement) -> ir.Body:
+    def expanded(self, old: ir.Statement, before: ir.Body, new: ir.Statement) -> ir.Body:
         if not before or not blocks(new) or not any(map(self.raises, before)):
             return (new,) if not before else expansion(old.origin, (*before, new))
         ready = self.ready(before)

@@ -10,7 +10,8 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
 
 _STRICT = {"cand": "and", "cor": "or"}
@@ -84,10 +85,10 @@ def _strict(editor: Editor, routine: ir.Routine) -> ir.Routine:
 class _Chains(Hoister):
     """`a cand b` as the whole condition of an If without further branches is two nested Ifs, as people write it."""
 
-    def _if(self, statement: ir.If) -> ir.Body:
+    def choice(self, statement: ir.If) -> ir.Body:
         match statement:
             case ir.If(branches=((ir.Binary(op="cand", left=left, right=right), body),), otherwise=()):
                 if not self.editor.effects.safe(right):
                     inner = ir.If(((right, body),), origin=replace(statement.origin, comments=()))
-                    return self._if(replace(statement, branches=((left, (inner,)),)))
-        return super()._if(statement)
+                    return self.choice(replace(statement, branches=((left, (inner,)),)))
+        return super().choice(statement)

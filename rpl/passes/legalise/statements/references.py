@@ -14,15 +14,8 @@ from rpl.passes.capabilities import Passing
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, is_constant, statements_in
 from rpl.passes.legalise.facts.usage import base_name
-from rpl.passes.legalise.rewriting.editing import (
-    Editor,
-    Hoister,
-    Lowered,
-    edit_bodies,
-    edit_routines,
-    expansion,
-    map_body,
-)
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope
@@ -251,8 +244,8 @@ class _Callers(Hoister):
         result = self.editor.temporary("result", type)
         return (*before, ir.Assign(result, replace(expression, arguments=arguments)), *behind), result
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
-        done = super().statement(statement)
+    def placed(self, statement: ir.Statement) -> ir.Body:
+        done = super().placed(statement)
         last = done[-1]
         if not isinstance(last, ir.CallRoutine):
             return done

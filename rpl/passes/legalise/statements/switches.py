@@ -6,13 +6,8 @@ from rpl import ir
 from rpl.passes.capabilities import Composite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant, root
-from rpl.passes.legalise.rewriting.editing import (
-    Editor,
-    Hoister,
-    edit_bodies,
-    edit_routines,
-    expansion,
-)
+from rpl.passes.legalise.rewriting.bodies import Hoister
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
 
 
@@ -27,8 +22,8 @@ def unroll_switches(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Switches(Hoister):
-    def _switch(self, statement: ir.Switch) -> ir.Body:
-        done = super()._switch(statement)
+    def switch(self, statement: ir.Switch) -> ir.Body:
+        done = super().switch(statement)
         last = done[-1]
         if not isinstance(last, ir.Switch) or self._sayable(last):
             return done

@@ -15,7 +15,8 @@ from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.facts.effects import everything
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting import textparts
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, Rule, expansion
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered, Rule
+from rpl.passes.legalise.rewriting.editing import Editor, expansion
 from rpl.passes.legalise.rewriting.helpers import Helpers
 
 _SPECIFICATION = re.compile(r"%(?:(%)|(\d+)?(?:\.(\d+))?l?([diufgsc]))")
@@ -68,7 +69,7 @@ class TextHoister(Hoister):
                 return (*before, *written), text
         return super().lower(expression, lvalue)
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         """An assignment builds its text in place where the pieces do not mention it."""
         match statement:
             case ir.Assign(target=ir.Name() as target, value=value) if self.composed(value):
@@ -80,7 +81,7 @@ class TextHoister(Hoister):
                     written = self.appended(target, rest) if appended else self.written(target, rest)
                     if written is not None:
                         return expansion(statement.origin, (*before, *written))
-        return super().statement(statement)
+        return super().placed(statement)
 
     def truth(self, value: ir.Expression) -> Lowered:
         """The text of a BOOL: chosen by an If."""

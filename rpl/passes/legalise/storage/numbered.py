@@ -305,7 +305,7 @@ class _Numbered(Rewriter):
         elements = range(min(count, source.wanted.count))
         return [replace(statement, target=self.at(place, at), value=self.at(source, at)) for at in elements]
 
-    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         self.helpers_in_use = 0
         self.chosen_here.clear()
         if isinstance(statement, ir.For) and not statement.scoped:
@@ -314,7 +314,7 @@ class _Numbered(Rewriter):
             if place is not None:
                 done = super().placed(statement)
                 name = f"{place.wanted.bank.name}{place.number}"
-                return [replace(one, counter=name) if isinstance(one, ir.For) else one for one in done]
+                return tuple(replace(one, counter=name) if isinstance(one, ir.For) else one for one in done)
         return super().placed(statement)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:

@@ -123,7 +123,7 @@ class _Truths(Rewriter):
     def place(self, target: ir.Expression) -> ir.Expression:
         return self.parts(target) if isinstance(target, _STORED) else super().expression(target)
 
-    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Switch) and self.is_truth(statement.selector):
             cases = tuple(replace(one, values=tuple(map(_number_case, one.values))) for one in statement.cases)
             selector = ir.Convert("bit", statement.selector)

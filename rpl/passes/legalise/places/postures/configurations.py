@@ -230,7 +230,7 @@ class _Configurations(Rewriter):
         """The place of a value, or of the declaration or statement around it."""
         return self.around if expression.origin is NOWHERE else expression.origin
 
-    def placed(self, statement: ir.Statement) -> list[ir.Statement]:
+    def placed(self, statement: ir.Statement) -> ir.Body:
         self.around = statement.origin
         return super().placed(statement)
 

@@ -322,10 +322,10 @@ class _Kept(_Look):
             if not done:
                 done.append(_set(name, ir.IntLiteral(0)))
             total = ir.Binary("+", ir.Name(name), ir.IntLiteral(weight))
-            done.append(ir.If(((self.condition(fact, axis, joints), (_set(name, total),)),)))
+            done.append(ir.If(((self.flag_asked(fact, axis, joints), (_set(name, total),)),)))
         return done or [_set(name, ir.IntLiteral(0))]
 
-    def condition(self, fact: str, axis: int, joints: ir.Expression) -> ir.Expression:
+    def flag_asked(self, fact: str, axis: int, joints: ir.Expression) -> ir.Expression:
         if fact == "negative":
             return ir.Binary("<", _axis(joints, axis), ir.RealLiteral(0.0))
         opposite = fact == "elbow_above_stretched"

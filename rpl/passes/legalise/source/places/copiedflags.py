@@ -13,7 +13,8 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.facts.usage import base_name
-from rpl.passes.legalise.rewriting.editing import Editor, Hoister, Lowered, edit_bodies, edit_routines, map_body
+from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 
