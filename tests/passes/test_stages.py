@@ -21,8 +21,27 @@ def test_stages_have_names_of_their_own_and_say_what_they_are_for() -> None:
 
 
 def test_every_pass_stands_once() -> None:
+    """What runs again says why, and has its own place besides."""
     names = [one.name for one in PASSES]
     assert [name for name in names if names.count(name) > 1] == []
+    assert [one.name for one in PASSES if one.again and one.run.__name__ not in names] == []
+
+
+# Passes that stand in the folder of another stage than the one that runs them, with the reason.
+ELSEWHERE = {
+    "error_routines": "errors, behind settings for the next move: handlers look like ways out of a routine with these",
+    "without_shared_references": "routines, before interrupts: what these call gets routines of its own, and tasks",
+}
+
+
+def test_the_passes_of_a_stage_stand_in_its_folder() -> None:
+    outside = [
+        one.name
+        for stage in STAGES
+        for one in stage.passes
+        if not one.again and not f"{one.run.__module__}.".startswith(f"rpl.passes.legalise.{stage.name}.")
+    ]
+    assert outside == list(ELSEWHERE)
 
 
 @legalising()

@@ -6,10 +6,14 @@ from rpl.passes.legalise.stages import Placed
 
 from .changedplaces import changed_places
 from .groups import name_groups
+from .polledahead import polled_ahead
+from .roomytexts import roomy_texts
 from .startbases import start_bases
 
 PASSES: tuple[Placed, ...] = (
     Placed(changed_places, "source", behind="whole_settings"),
     Placed(name_groups, "io", behind="number_signals"),
     Placed(start_bases, "settings", behind="explicit_to_modal"),
+    Placed(polled_ahead, "storage", behind="ahead_readings"),
+    Placed(roomy_texts, "storage", behind="truths_to_numbers"),
 )

@@ -14,6 +14,6 @@ PASSES: tuple[Placed, ...] = (
     Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
     Placed(compositions, "records", behind="drop_unread_parameters"),
-    Placed(read_components, "control", behind="fit_made_loops"),
-    Placed(long_logic, "control", behind="fit_made_loops"),
+    Placed(read_components, "control", behind="fit_loops"),
+    Placed(long_logic, "control", behind="fit_loops"),
 )

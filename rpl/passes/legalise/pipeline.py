@@ -14,10 +14,10 @@ from rpl.passes.legalise.errors.stage import STAGE as ERRORS
 from rpl.passes.legalise.interrupts.stage import STAGE as INTERRUPTS
 from rpl.passes.legalise.io.stage import STAGE as IO
 from rpl.passes.legalise.paths.stage import STAGE as PATHS
-from rpl.passes.legalise.places.postures.configurations import configurations
-from rpl.passes.legalise.places.postures.otherarms import places_on_other_arm
+from rpl.passes.legalise.places.stage import OTHER_ARM
 from rpl.passes.legalise.places.stage import STAGE as PLACES
 from rpl.passes.legalise.records.stage import STAGE as RECORDS
+from rpl.passes.legalise.refusals.stage import STAGE as REFUSALS
 from rpl.passes.legalise.routines.stage import STAGE as ROUTINES
 from rpl.passes.legalise.searches.stage import STAGE as SEARCHES
 from rpl.passes.legalise.settings.stage import STAGE as SETTINGS
@@ -36,6 +36,7 @@ STAGES: tuple[Stage, ...] = (
     PLACES,
     PATHS,
     INTERRUPTS,
+    REFUSALS,
     IO,
     DATA,
     ROUTINES,
@@ -61,7 +62,7 @@ def legalise(program: ir.Program, context: Context, own: tuple[Placed, ...] = ()
     context.taken |= names_in(program)
     other_arm = context.robot is not None and context.to_robot is not None and context.robot is not context.to_robot
     if not context.foreign or context.capabilities.carries_rules:
-        return configurations(places_on_other_arm(program, context), context) if other_arm else program
+        return run_passes(OTHER_ARM, program, context) if other_arm else program
     program = run_passes(passes_with(own), program, context)
     return normalise(_governed(program, context), context.diagnostics)
 

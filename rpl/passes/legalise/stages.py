@@ -24,19 +24,23 @@ Unless = Callable[[Context], object]  # its truth counts
 class Pass:
     """One rewriting of a whole program. unless: a translation that does not need it (the target has what the pass
     rewrites, or the source does not know it). sees: kinds of nodes (`kinds_of`), one of which a program must hold for
-    the pass to change or report anything; empty: any program."""
+    the pass to change or report anything; empty: any program. again: why it runs here besides the place that it has in
+    the stage of its folder."""
 
     run: Run
     unless: Unless | None = None
     sees: frozenset[str] = frozenset()
+    again: str = ""
 
     @property
     def name(self) -> str:
-        return self.run.__name__
+        return f"{self.run.__name__} again" if self.again else self.run.__name__
 
     @property
     def purpose(self) -> str:
-        """The first sentence of what is said of it."""
+        """The first sentence of what is said of it; of a further run, why it is one."""
+        if self.again:
+            return f"Runs here too: {self.again}"
         text = " ".join((self.run.__doc__ or "").split())
         return text.split(". ")[0].rstrip(".")
 
@@ -52,6 +56,11 @@ class Pass:
 def legalising(unless: Unless | None = None, sees: Iterable[str] = ()) -> Callable[[Run], Pass]:
     """Make a pass of a function. unless and sees as in Pass."""
     return lambda run: Pass(run, unless, frozenset(sees))
+
+
+def again(one: Pass, reason: str) -> Pass:
+    """A further run of a pass that stands once in the stage of its folder."""
+    return replace(one, again=reason)
 
 
 @dataclass(frozen=True, slots=True)

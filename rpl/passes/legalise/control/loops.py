@@ -45,12 +45,6 @@ def fit_loops(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
-@legalising()
-def fit_made_loops(program: ir.Program, context: Context) -> ir.Program:
-    """Loops that functions in conditions have become, in the forms of the target."""
-    return fit_loops(program, context)
-
-
 @dataclass(frozen=True, slots=True)
 class _Rule:
     """What is known of a counting loop before it runs. step None: the direction depends on the bounds."""

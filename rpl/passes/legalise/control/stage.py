@@ -9,22 +9,22 @@ from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.functions import functions_to_procedures
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.locals import variables_of_routines
-from rpl.passes.legalise.control.loops import fit_made_loops
+from rpl.passes.legalise.control.loops import fit_loops
 from rpl.passes.legalise.control.parameters import fit_arguments
-from rpl.passes.legalise.control.steps import steps, steps_of_conditions
-from rpl.passes.legalise.stages import Clause, Stage
+from rpl.passes.legalise.control.steps import steps
+from rpl.passes.legalise.stages import Clause, Stage, again
 
 STAGE = Stage(
     "control",
     (
         functions_to_procedures,
         fit_arguments,
-        fit_made_loops,
+        fit_loops,
         steps,
         variables_of_routines,
         nest_branches,
         structure_to_labels,
-        steps_of_conditions,
+        again(steps, "conditions of the jumps that structure has become are opposites"),
     ),
     Clause(
         statements="ExitLoop Loop NextPass Repeat While",

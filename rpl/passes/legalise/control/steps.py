@@ -53,12 +53,6 @@ def steps(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
-@legalising(steps.unless)
-def steps_of_conditions(program: ir.Program, context: Context) -> ir.Program:
-    """The conditions of jumps that structure has become, as steps: they are opposites."""
-    return steps(program, context)
-
-
 class _Steps(Hoister):
     def __init__(self, editor: Editor, changes: frozenset[str] | None) -> None:
         super().__init__(editor, lambda _: None)

@@ -13,14 +13,12 @@ from rpl.passes.legalise.errors.ownrecords import apart_from_neutral_records
 from rpl.passes.legalise.errors.possiblecases import possible_cases
 from rpl.passes.legalise.errors.prelude import link_prelude
 from rpl.passes.legalise.errors.usedelements import used_elements
-from rpl.passes.legalise.interrupts.emptyreactions import without_empty_reactions
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Stage, again
 from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 
 STAGE = Stage(
     "errors",
     (
-        without_empty_reactions,
         interrupt_places,
         unreachable_moves,
         error_numbers,
@@ -29,6 +27,6 @@ STAGE = Stage(
         apart_from_neutral_records,
         used_elements,
         possible_cases,
-        labels_to_structure,
+        again(labels_to_structure, "ways through the program are followed behind it, and are structure then"),
     ),
 )

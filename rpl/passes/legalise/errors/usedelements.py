@@ -9,8 +9,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.mentioned import is_linked
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.storage.unused import is_linked
 
 Elements = dict[str, dict[tuple[int, ...], str]]  # array (folded) -> numbers of an element -> its variable
 

@@ -1,7 +1,5 @@
-"""Flags by a name as truth values; flags by a computed number as an array of them, for targets without flags; flags
-beyond the last number that a target has as variables.
-
-A flag that has a name and no number (a semaphore, a marker of the controller) is a variable of all tasks everywhere.
+"""Flags by a computed number as an array of truth values, for targets without flags; flags beyond the last number that
+a target has as variables.
 
 Flags that a program only names by constants are single variables there, which the writer chooses; one number that is
 computed needs them side by side, so that then all flags of the program are elements of one array.
@@ -24,34 +22,6 @@ COMPUTED = code(
 )
 # Numbers that a computed one is expected to reach where the program names no larger one.
 _REACH = 32
-
-
-@legalising(sees=("Signal",))
-def named_flags(program: ir.Program, context: Context) -> ir.Program:
-    """For every target."""
-    names: dict[str, str] = {}
-    for node in walk(*(routine for module in program.modules for routine in module.routines)):
-        match node:
-            case ir.Signal(kind="flag", name=str() as name) if name.lower() not in names:
-                names[name.lower()] = context.fresh(name)
-    if not names:
-        return program
-
-    def placed(node: object) -> object:
-        match node:
-            case ir.Signal(kind="flag", name=str() as name):
-                return ir.Name(names[name.lower()], origin=node.origin)
-        return node
-
-    modules = [replace(one, routines=tuple(rewrite(each, placed) for each in one.routines)) for one in program.modules]
-    data = tuple(ir.Variable(name, ir.BoolType(), storage="persistent", scope="global") for name in names.values())
-    for place, module in enumerate(modules):
-        if module.public and not module.routines:
-            modules[place] = replace(module, declarations=(*module.declarations, *data))
-            return replace(program, modules=tuple(modules))
-    first = modules[0]
-    home = ir.Module(context.fresh("flags"), first.dialect, data, task=first.task, public=True)
-    return replace(program, modules=(*modules, home))
 
 
 @legalising(sees=("Signal", "System"))
@@ -119,4 +89,4 @@ def _number(node: object) -> ir.Expression | None:
     return None
 
 
-__all__ = ["flags_as_data", "named_flags"]
+__all__ = ["flags_as_data"]

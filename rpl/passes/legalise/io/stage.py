@@ -1,27 +1,25 @@
-"""What has no form is refused, and remarks of declarations stand by themselves, before clocks leave none; then settings
-that a program reads, signals, groups and clocks get the numbers, names and forms of the target. They stand before data,
-because calls of signals and settings that are kept make data.
+"""What a program asks of the controller and of the machine: overrides and settings that it reads, signals, groups and
+clocks, with the numbers, names and forms of the target. They stand before data, because calls of signals and settings
+that are kept make data; remarks of declarations come first, because clocks leave none.
 """
 
 from __future__ import annotations
 
-from rpl.passes.legalise.data.declaredremarks import declared_remarks
 from rpl.passes.legalise.io.analogunits import analog_units
 from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
+from rpl.passes.legalise.io.declaredremarks import declared_remarks
 from rpl.passes.legalise.io.flagdata import flags_as_data
 from rpl.passes.legalise.io.keptsettings import kept_settings
+from rpl.passes.legalise.io.overrides import full_override
 from rpl.passes.legalise.io.readoverrides import read_overrides
 from rpl.passes.legalise.io.signals import name_signals, number_signals
+from rpl.passes.legalise.io.speedshares import speed_shares
 from rpl.passes.legalise.io.timers import timers_to_clocks
-from rpl.passes.legalise.refusals import refuse
-from rpl.passes.legalise.settings.overrides import full_override
-from rpl.passes.legalise.settings.speedshares import speed_shares
 from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "io",
     (
-        refuse,
         declared_remarks,
         speed_shares,
         full_override,

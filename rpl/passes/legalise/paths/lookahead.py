@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
-from rpl.passes.legalise.facts.usage import each_expression
+from rpl.passes.legalise.facts.advance import touches
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -77,32 +77,3 @@ class _Stops:
             if isinstance(statement, ir.If | ir.Switch | ir.For | ir.While | ir.Repeat | ir.Loop | ir.Label | ir.Goto):
                 return None  # what comes next depends on the run; the target's own look-ahead decides
         return None
-
-
-def touches(statement: ir.Statement, scope: Scope) -> bool:
-    """Does the statement itself (not its bodies) read or write a signal or an actual position?"""
-    found = False
-
-    def look(expression: ir.Expression) -> None:
-        nonlocal found
-        match expression:
-            case ir.Signal():
-                found = found or not is_flag(expression)
-            case ir.System(name=name) if name in ir.SYSTEM_VARIABLES:
-                found = found or ir.SYSTEM_VARIABLES[name].stops_advance
-            case ir.Name(id=name):
-                symbol = scope.value(name)
-                found = found or (symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration))
-            case ir.Builtin(function="current_target" | "current_joints" | "current_position"):
-                found = True
-
-    each_expression(statement, look)
-    return found
-
-
-def is_flag(expression: object) -> bool:
-    """A flag of the controller: it is no signal of the machine."""
-    match expression:
-        case ir.Signal(kind="flag") | ir.System(name="flag" | "cyclic_flag"):
-            return True
-    return False

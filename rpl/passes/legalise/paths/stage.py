@@ -5,7 +5,7 @@ these are made before the actions get the target's form.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.interrupts.actionarguments import action_arguments
+from rpl.passes.legalise.paths.actionarguments import action_arguments
 from rpl.passes.legalise.paths.atrest import at_rest
 from rpl.passes.legalise.paths.begunmoves import begun_moves
 from rpl.passes.legalise.paths.begunoutputs import begun_outputs

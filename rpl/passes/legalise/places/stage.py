@@ -11,6 +11,7 @@ from rpl.passes.legalise.places.arcpoints import whole_arc_points
 from rpl.passes.legalise.places.circles import circle_rules
 from rpl.passes.legalise.places.destinations import destinations
 from rpl.passes.legalise.places.externalplaces import external_places
+from rpl.passes.legalise.places.nextmove.joinedmoves import joined_moves
 from rpl.passes.legalise.places.nextmove.movetimes import move_times
 from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.places.nextmove.nextmovecalls import next_moves_behind_calls
@@ -29,8 +30,10 @@ from rpl.passes.legalise.places.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.places.postures.seenjoints import seen_joints
 from rpl.passes.legalise.places.postures.turns import told_turns
 from rpl.passes.legalise.places.threepoints import three_point_arcs
-from rpl.passes.legalise.settings.joinedmoves import joined_moves
 from rpl.passes.legalise.stages import Clause, Stage
+
+# What another arm needs, also where the language stays the same.
+OTHER_ARM = (places_on_other_arm, configurations)
 
 STAGE = Stage(
     "places",
@@ -56,8 +59,7 @@ STAGE = Stage(
         destinations,
         flag_readings,
         free_postures,
-        places_on_other_arm,
-        configurations,
+        *OTHER_ARM,
         told_turns,
     ),
     Clause(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from rpl.passes.legalise.io.speedshares import REFUSED as SHARE
 from rpl.passes.legalise.refusals.rows import Refusal
 from rpl.passes.legalise.settings.scaledspeeds import COMPUTED
-from rpl.passes.legalise.settings.speedshares import REFUSED as SHARE
 
 __all__ = ["SETTINGS"]
 

@@ -4,8 +4,8 @@ the type that the target gives its data.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.data.arrays import array_sizes
 from rpl.passes.legalise.routines.aliases import without_aliases
+from rpl.passes.legalise.routines.arraysizes import array_sizes
 from rpl.passes.legalise.routines.givenarrays import given_arrays
 from rpl.passes.legalise.routines.optional import fit_parameters
 from rpl.passes.legalise.routines.results import list_results

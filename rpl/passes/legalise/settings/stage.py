@@ -4,7 +4,6 @@ behind statements, because calls of built-in routines make settings too.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.paths.begunmoves import moves_ahead
 from rpl.passes.legalise.settings.accelerations import accelerations_of_moves
 from rpl.passes.legalise.settings.coordinatedmoves import coordinated_moves
 from rpl.passes.legalise.settings.corners.cornerleads import corner_leads
@@ -15,9 +14,10 @@ from rpl.passes.legalise.settings.corners.overlapping import left_out_moves
 from rpl.passes.legalise.settings.corners.standing import stand_first
 from rpl.passes.legalise.settings.corners.turningzones import full_zones, reduced_zones
 from rpl.passes.legalise.settings.explicit import explicit_to_modal
-from rpl.passes.legalise.settings.joinedmoves import stand_before_ways
+from rpl.passes.legalise.settings.jointways import stand_before_ways
 from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.settings.modal import modal_to_explicit
+from rpl.passes.legalise.settings.movesahead import moves_ahead
 from rpl.passes.legalise.settings.movesettings import settings_at_moves
 from rpl.passes.legalise.settings.onemove import settings_of_one_move
 from rpl.passes.legalise.settings.ownplaces import own_places

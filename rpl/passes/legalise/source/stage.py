@@ -4,12 +4,13 @@ Behind it a program says the same in neutral words.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.io.flagdata import named_flags
 from rpl.passes.legalise.source.cyclicflags import cyclic_flags
+from rpl.passes.legalise.source.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.source.grownarrays import grown_arrays
 from rpl.passes.legalise.source.keptvalues import kept_values_known
 from rpl.passes.legalise.source.loadreadings import load_readings
 from rpl.passes.legalise.source.loadvariables import load_variables
+from rpl.passes.legalise.source.namedflags import named_flags
 from rpl.passes.legalise.source.neutralfunctions import neutral_functions
 from rpl.passes.legalise.source.ownnames import names_of_local_routines
 from rpl.passes.legalise.source.places.copiedflags import copied_flags
@@ -37,13 +38,13 @@ from rpl.passes.legalise.source.texts.textdecimals import text_decimals
 from rpl.passes.legalise.source.texts.textlengths import text_lengths
 from rpl.passes.legalise.source.texts.textorders import text_orders
 from rpl.passes.legalise.source.texts.wholetexts import whole_texts
+from rpl.passes.legalise.source.untyped import drop_untyped
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
 from rpl.passes.legalise.source.ways.splines import straight_splines, without_path_rules
 from rpl.passes.legalise.source.ways.turnedways import turned_ways
 from rpl.passes.legalise.source.wholetimes import whole_times
 from rpl.passes.legalise.stages import Clause, Stage
-from rpl.passes.legalise.storage.unused import drop_untyped
 
 STAGE = Stage(
     "source",
@@ -88,6 +89,7 @@ STAGE = Stage(
         constant_orientations,
         turned_ways,
         elementwise,
+        without_empty_reactions,
     ),
     Clause(
         functions="displaced displaced_in_tool element_difference element_sum external_from_pulses "

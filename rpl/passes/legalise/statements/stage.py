@@ -1,23 +1,23 @@
-"""Waits, messages, choices, conditions and calls of built-in things. They stand behind routines, because a handler
-that the target lacks becomes choices, and these become chains of conditions.
+"""Waits, pulses, messages, choices, conditions and calls of built-in things. They stand behind routines, because a
+handler that the target lacks becomes choices, and these become chains of conditions.
 """
 
 from __future__ import annotations
 
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.io.pulsedoutputs import pulsed_outputs
-from rpl.passes.legalise.io.pulselevels import pulse_levels
-from rpl.passes.legalise.io.restingwaits import resting_waits
-from rpl.passes.legalise.io.seldomlooks import seldom_looks
-from rpl.passes.legalise.stages import Clause, Stage
+from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.passes.legalise.statements.enums import enums_to_constants
 from rpl.passes.legalise.statements.errors import check_errors
-from rpl.passes.legalise.statements.jumps.structure import structure_of_made_jumps
+from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 from rpl.passes.legalise.statements.logic import decide_logic
 from rpl.passes.legalise.statements.messages import message_lines, senders_as_texts, split_messages
 from rpl.passes.legalise.statements.polling import poll_waits
+from rpl.passes.legalise.statements.pulsedoutputs import pulsed_outputs
+from rpl.passes.legalise.statements.pulselevels import pulse_levels
 from rpl.passes.legalise.statements.references import references_as_copies
+from rpl.passes.legalise.statements.restingwaits import resting_waits
+from rpl.passes.legalise.statements.seldomlooks import seldom_looks
 from rpl.passes.legalise.statements.switches import unroll_switches
 from rpl.passes.legalise.statements.waits import fit_waits
 
@@ -25,7 +25,7 @@ STAGE = Stage(
     "statements",
     (
         check_errors,
-        structure_of_made_jumps,
+        labels_to_structure,
         seldom_looks,
         resting_waits,
         fit_waits,
@@ -39,7 +39,7 @@ STAGE = Stage(
         rewrite_calls,
         split_messages,
         references_as_copies,
-        fit_loops,
+        again(fit_loops, "loops over choices count with them, and these become numbers next"),
         enums_to_constants,
     ),
     Clause(

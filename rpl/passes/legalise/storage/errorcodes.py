@@ -11,9 +11,9 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.errornames import spelled_among
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.facts.mentioned import is_linked
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.storage.unused import is_linked
 
 
 @legalising(unless=lambda context: not context.capabilities.errors.handlers)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from rpl.passes.legalise.paths.begunmoves import polled_ahead
-from rpl.passes.legalise.source.texts.textlengths import roomy_texts
 from rpl.passes.legalise.stages import Stage
 from rpl.passes.legalise.storage.aheadreadings import ahead_readings
 from rpl.passes.legalise.storage.begunanew import begun_anew
@@ -22,7 +20,6 @@ STAGE = Stage(
     (
         name_errors,
         ahead_readings,
-        polled_ahead,
         said_once,
         drop_unused,
         begun_anew,
@@ -30,7 +27,6 @@ STAGE = Stage(
         labels_as_remarks,
         one_spelling,
         truths_to_numbers,
-        roomy_texts,
         share_temporaries,
         drop_idle_data,
         number_data,

@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.facts.advance import is_flag, touches
 from rpl.passes.legalise.facts.usage import base_name, each_expression, each_statement
 from rpl.passes.legalise.interrupts.resumes import left_by_resumes
-from rpl.passes.legalise.paths.lookahead import is_flag, touches
 from rpl.passes.legalise.rewriting.editing import edit_bodies, exits
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts

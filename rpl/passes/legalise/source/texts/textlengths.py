@@ -19,6 +19,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.wholes import Key, place_key
 from rpl.passes.legalise.rewriting.jumps import LOOPS
+from rpl.passes.legalise.rewriting.textroom import declared_types, with_room
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
@@ -41,58 +42,12 @@ def text_lengths(program: ir.Program, context: Context) -> ir.Program:
     """Reports, and gives texts more room where the target declares how much each has."""
     usual, most = context.capabilities.texts.room or (0, rules_of(context.target).text_length)
     least = rules_of(context.source).text_length
-    if not most or (least and least <= (usual or most)) or not any(map(_is_text, _types(program))):
+    if not most or (least and least <= (usual or most)) or not any(map(_is_text, declared_types(program))):
         return program
     lengths = _Lengths(program, most + 1, least or most + 1)
     for name, origin in lengths.beyond(most):
         context.diagnostics.report(TOO_LONG, origin, what=name, most=most)
-    return _with_room(program, most) if usual and any(True for _ in lengths.beyond(usual)) else program
-
-
-@legalising()
-def roomy_texts(program: ir.Program, context: Context) -> ir.Program:
-    """What keeps parts of texts beside those that got more room gets as much."""
-    if context.capabilities.texts.room is None:
-        return program
-    most = context.capabilities.texts.room[1]
-    return _with_room(program, most) if ir.StringType(ir.IntLiteral(most)) in _types(program) else program
-
-
-def _types(program: ir.Program) -> Iterator[ir.Type]:
-    """What is declared, of lists their elements."""
-    for module in program.modules:
-        for one in (*module.declarations, *(d for routine in module.routines for d in routine.declarations)):
-            types = [one.type] if isinstance(one, ir.Variable) else []
-            types += [type for _, type in one.fields] if isinstance(one, ir.RecordDeclaration) else []
-            for type in types:
-                while isinstance(type, ir.ArrayType):
-                    type = type.element
-                yield type
-
-
-def _with_room(program: ir.Program, most: int) -> ir.Program:
-    def declared(one: ir.Declaration) -> ir.Declaration:
-        match one:
-            case ir.Variable(type=type):
-                return replace(one, type=_roomy(type, most))
-            case ir.RecordDeclaration(fields=fields):
-                return replace(one, fields=tuple((name, _roomy(type, most)) for name, type in fields))
-        return one
-
-    modules = []
-    for module in program.modules:
-        routines = tuple(replace(one, declarations=tuple(map(declared, one.declarations))) for one in module.routines)
-        modules.append(replace(module, declarations=tuple(map(declared, module.declarations)), routines=routines))
-    return replace(program, modules=tuple(modules))
-
-
-def _roomy(type: ir.Type, most: int) -> ir.Type:
-    match type:
-        case ir.StringType(capacity=None):
-            return ir.StringType(ir.IntLiteral(most))
-        case ir.ArrayType(element=element):
-            return replace(type, element=_roomy(element, most))
-    return type
+    return with_room(program, most) if usual and any(True for _ in lengths.beyond(usual)) else program
 
 
 def _is_text(type: ir.Type | None) -> bool:
@@ -326,4 +281,4 @@ def _name(place: ir.Expression) -> str:
     return "a text"
 
 
-__all__ = ["roomy_texts", "text_lengths"]
+__all__ = ["text_lengths"]

@@ -44,12 +44,6 @@ def labels_to_structure(program: ir.Program, context: Context) -> ir.Program:
     return edit_routines(program, context, work)
 
 
-@legalising(labels_to_structure.unless)
-def structure_of_made_jumps(program: ir.Program, context: Context) -> ir.Program:
-    """Jumps that handlers of errors have become, as structure."""
-    return labels_to_structure(program, context)
-
-
 def _needs(editor: Editor, body: ir.Body) -> bool:
     lacking = "NextPass" not in editor.capabilities.statements
     return any(isinstance(one, ir.Goto) or (lacking and isinstance(one, ir.NextPass)) for one in statements_in(body))

@@ -12,9 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, rewrite, walk
-from rpl.passes.capabilities import PathRule
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.modalflow import Flow
@@ -24,12 +22,6 @@ from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
 
-STANDS = code(
-    "relative-move-stands",
-    Severity.WARNING,
-    "this way in joints is worked out from where the robot is; the robot comes to rest in front of it",
-    "teach the position, so that the move before can go over into this one",
-)
 _JOINED = ir.System("blending")
 
 
@@ -102,35 +94,6 @@ def _alone(program: ir.Program, moves: frozenset[int]) -> bool:
     return all(holds(body) for module in program.modules for one in module.routines for body in bodies(one))
 
 
-@legalising(unless=lambda context: PathRule.FROM_HERE not in context.capabilities.motion.paths)
-def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
-    """Ways in joints, in targets whose programs work them out from where the robot is: it has to stand there."""
-
-    def stood(body: ir.Body) -> ir.Body:
-        done: list[ir.Statement] = []
-        joined = True  # by what was driven before the body
-        for statement in body:
-            statement = inside(statement, stood)
-            if isinstance(statement, ir.Move) and statement.relative == "joints" and joined:
-                if done and isinstance(done[-1], ir.Move):
-                    context.diagnostics.report(STANDS, statement.origin)
-                done.append(ir.WaitForMotion(origin=replace(statement.origin, comments=())))
-            if isinstance(statement, ir.Move):
-                joined = statement.blend not in (None, ir.BlendStop())
-            elif isinstance(statement, ir.WaitForMotion):
-                joined = False
-            elif blocks(statement) or isinstance(statement, ir.CallRoutine | ir.Label):
-                joined = True
-            done.append(statement)
-        return (
-            body
-            if len(done) == len(body) and all(one is two for one, two in zip(done, body, strict=True))
-            else tuple(done)
-        )
-
-    return edit_all(program, stood)
-
-
 def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.Expression | None] | None:
     """What the moves that say nothing find, by their identity (None: either): nothing where that is what the program
     starts with throughout. None for all where one is set for the next move, whichever that is."""
@@ -180,4 +143,4 @@ def _settings(node: object) -> tuple[tuple[ir.Expression, ir.Expression], ...]:
     return ()
 
 
-__all__ = ["joined_moves", "stand_before_ways"]
+__all__ = ["joined_moves"]

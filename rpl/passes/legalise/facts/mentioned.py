@@ -1,0 +1,88 @@
+"""Which names a program mentions, and which of its modules are the used part of the source's prelude."""
+
+from __future__ import annotations
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.rewrite import rewrite_parts
+
+_BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
+
+
+def is_linked(module: ir.Module, context: Context) -> bool:
+    """Is it the used part of the source's prelude?"""
+    return module.name.lower().startswith(f"{context.source}_base")
+
+
+def called_as(name: str) -> str:
+    """How a routine's name stands among the names in use."""
+    return f"{name.lower()}()"
+
+
+def _named_types(type: ir.Type | None) -> set[str]:
+    """The name of a type of the program's own, of an array that of its elements."""
+    while isinstance(type, ir.ArrayType):
+        type = type.element
+    return {type.name.lower()} if isinstance(type, ir.NamedType) else set()
+
+
+def mentioned(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
+    """Every name that the node mentions, folded: of values, routines, types and members."""
+    found: set[str] = set()
+
+    def types(type: ir.Type | None) -> None:
+        found.update(_named_types(type))
+
+    def expression(one: ir.Expression) -> ir.Expression:
+        match one:
+            case ir.Call(name=name):
+                found.update((name.lower(), called_as(name)))
+            case ir.Name(id=name) | ir.EnumLiteral(member=name):
+                found.add(name.lower())
+            case ir.Aggregate(type_name=word) if word and word not in _BUILT_IN:
+                found.add(word.lower())
+        return rewrite_parts(one, expression)
+
+    def body(statements: ir.Body) -> ir.Body:
+        for one in statements:
+            match one:
+                case ir.For(counter=name):
+                    found.add(name.lower())
+                case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+                    found.update((name.lower(), called_as(name)))
+                case ir.TaskControl(task=str() as name) | ir.OnError(routine=str() as name):
+                    found.update((name.lower(), called_as(name)))
+            rewrite_parts(one, expression, body)
+        return statements
+
+    def declaration(one: ir.Declaration) -> None:
+        match one:
+            case ir.Variable(type=type) | ir.AliasDeclaration(type=type):
+                types(type)
+            case ir.RecordDeclaration(fields=fields):
+                for _, type in fields:
+                    types(type)
+
+    def routine(one: ir.Routine) -> None:
+        types(one.returns)
+        for parameter in one.parameters:
+            types(parameter.type)
+        for inner in one.declarations:
+            declaration(inner)
+
+    match node:
+        case ir.Program(modules=modules):
+            for module in modules:
+                for one in module.declarations:
+                    declaration(one)
+                for each in module.routines:
+                    routine(each)
+        case ir.Routine():
+            routine(node)
+        case _:
+            declaration(node)
+    rewrite_parts(node, expression, body)
+    return found
+
+
+__all__ = ["called_as", "is_linked", "mentioned"]
