@@ -10,6 +10,7 @@ word `write` the rows of the pairs that were run are put into it.
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import re
 import sys
@@ -124,15 +125,19 @@ TARGETS = list(registry.target_names())
 @dataclass(frozen=True)
 class Pair:
     """What came of a project in a target. `missed`: expectations that do not hold, the run going on behind guarded
-    stops. `losses`: code and reason of each. `end`: how the run ended; `error` when nothing could be run."""
+    stops. `losses`: code and reason of each. `end`: how the run ended; `error` when nothing could be run.
+    `unexplained`: those missed that the project itself meets without the statements that were lost: their losing is
+    not why they are missed."""
 
     missed: tuple[int, ...]
     losses: tuple[str, ...] = ()
     end: str = "finished"
+    unexplained: tuple[int, ...] = ()
 
     def as_json(self) -> dict[str, object]:
         codes = sorted({loss.split(": ")[1] for loss in self.losses})
-        return {"missed": list(self.missed), "codes": codes}
+        row: dict[str, object] = {"missed": list(self.missed), "codes": codes}
+        return row | {"unexplained": list(self.unexplained)} if self.unexplained else row
 
 
 @lru_cache
@@ -208,7 +213,41 @@ def pair_of(name: str, target: str) -> Pair:
     on = switched_on(result)
     told = [item for item in diagnostics if item.severity == Severity.LOSS or item.code is LEFT_OVER]
     losses = sorted(set(map(_told, told)))
-    return Pair(tuple(number for number in everything if number not in on), tuple(losses), _end(result))
+    missed = tuple(number for number in everything if number not in on)
+    end = _end(result)
+    asked = missed and end == "finished"  # a fault ends the run in front of what follows
+    unexplained = tuple(sorted(met_without(name, told).intersection(missed))) if asked else ()
+    return Pair(missed, tuple(losses), end, unexplained)
+
+
+def met_without(name: str, told: list[Diagnostic]) -> set[int]:
+    """The expectations that the project meets on its own arm without the statements where losses are told."""
+    project, read = PROJECTS[name], read_project(name)
+    lost = {(item.origin.file, item.origin.line) for item in told}
+    left = without_lines(read.program, lost)
+    try:
+        result = run_program(left, project.robot, cell_of(name), project.entry, LIMIT_S, controller=DRIVEN)
+    except RplError:
+        return set()
+    return switched_on(result)
+
+
+def without_lines(program: ir.Program, lines: set[tuple[str, int]]) -> ir.Program:
+    """The program without the statements of routines that begin in these lines of files, and without those around which
+    cannot be without them (a trigger without its action)."""
+    gone = ir.Nothing()
+
+    def change(node: object) -> object:
+        if not isinstance(node, ir.Statement):
+            return node
+        inside = (getattr(node, field.name) for field in dataclasses.fields(node))
+        return gone if (node.origin.file, node.origin.line) in lines or any(one is gone for one in inside) else node
+
+    modules = (
+        dataclasses.replace(module, routines=tuple(rewrite(routine, change) for routine in module.routines))
+        for module in program.modules
+    )
+    return dataclasses.replace(program, modules=tuple(modules))
 
 
 def _end(result: RunResult) -> str:
@@ -235,6 +274,7 @@ def _shown(name: str, target: str, pair: Pair) -> Iterator[str]:
     count = PROJECTS[name].count
     silent = "  SILENT" if pair.missed and not pair.losses else ""
     missed = f"; missed {' '.join(map(str, pair.missed))}" if pair.missed else ""
+    missed += f"; UNEXPLAINED {' '.join(map(str, pair.unexplained))}" if pair.unexplained else ""
     yield f"{name} -> {target}: {count - len(pair.missed)} of {count}{missed}; {pair.end[:200]}{silent}"
     yield from (f"    {loss[:220]}" for loss in pair.losses)
 
