@@ -7,6 +7,7 @@ from rpl.passes.legalise.storage.aheadreadings import ahead_readings
 from rpl.passes.legalise.storage.begunanew import begun_anew
 from rpl.passes.legalise.storage.errorcodes import name_errors
 from rpl.passes.legalise.storage.labelled import labels_as_remarks
+from rpl.passes.legalise.storage.madeplaces import place_made_statements
 from rpl.passes.legalise.storage.modulepoints import points_of_modules
 from rpl.passes.legalise.storage.numbered import number_data
 from rpl.passes.legalise.storage.saidtwice import said_once
@@ -30,5 +31,6 @@ STAGE = Stage(
         share_temporaries,
         drop_idle_data,
         number_data,
+        place_made_statements,
     ),
 )
