@@ -58,10 +58,6 @@ def _no_signal(text: str) -> Signal | None:
     return None
 
 
-def _no_flag_terms(arm: str) -> Mapping[str, tuple[tuple[int, str, int], ...]]:
-    return {}
-
-
 def _no_companions(path: str) -> tuple[str, ...]:
     return ()
 
@@ -78,9 +74,8 @@ class Dialect:
     read(sources, diagnostics): all sources of one project together. rules(): the data of its meaning. prelude(): its
     predefined data and system routines as a module, or None. notation(): arm configuration flags, or None.
     companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
-    the language spells a numbered signal. flag_terms(arm): what each flag of the notation is the sum of: weight, a fact
-    of rpl.emulator.model.Posture (or `negative`, `quarter`: the sign and the quarter turn of an axis) and the axis.
-    aliases: other words that people ask for it by, such as its maker's name; capitals do not count.
+    the language spells a numbered signal. aliases: other words that people ask for it by, such as its maker's name;
+    capitals do not count.
     analog_said(program): the ranges of analogue signals that a program of the language itself says. signal_of(text):
     what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None.
     """
@@ -96,7 +91,6 @@ class Dialect:
     notation_fields: tuple[str, ...] = ()
     companions: Callable[[str], tuple[str, ...]] = _no_companions
     signal_name: Callable[[str, int], str] = _signal_name
-    flag_terms: Callable[[str], Mapping[str, tuple[tuple[int, str, int], ...]]] = _no_flag_terms
     aliases: tuple[str, ...] = ()
     analog_said: Callable[[Program], tuple[AnalogPorts, ...]] = _nothing_said
     signal_of: Callable[[str], Signal | None] = _no_signal

@@ -83,12 +83,6 @@ def _notation() -> Notation:
     return NOTATION
 
 
-def _flag_terms(arm: str) -> dict[str, tuple[tuple[int, str, int], ...]]:
-    """S and T, bit by bit."""
-    status = ((1, "behind_axis1", 0), (2, "elbow_above_stretched", 0), (4, "wrist_negative", 0))
-    return {"s": status, "t": tuple((1 << axis, "negative", axis + 1) for axis in range(6))}
-
-
 def _signal_name(kind: str, number: int) -> str:
     """How KRL spells a physical signal."""
     known = words("krl")
@@ -107,6 +101,5 @@ DIALECT = Dialect(
     notation_fields=("s", "t"),
     companions=_companions,
     signal_name=_signal_name,
-    flag_terms=_flag_terms,
     aliases=("kuka", "krc"),
 )

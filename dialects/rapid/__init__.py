@@ -52,14 +52,6 @@ def _notation() -> Notation:
     return NOTATION
 
 
-def _flag_terms(arm: str) -> dict[str, tuple[tuple[int, str, int], ...]]:
-    """The quarter turns, and cfx bit by bit."""
-    from .configuration import CFX_UNUSED
-
-    cfx = () if arm in CFX_UNUSED else ((4, "behind_axis1", 0), (2, "behind_lower_arm", 0), (1, "wrist_negative", 0))
-    return {"cf1": ((1, "quarter", 1),), "cf4": ((1, "quarter", 4),), "cf6": ((1, "quarter", 6),), "cfx": cfx}
-
-
 DIALECT = Dialect(
     "rapid",
     "ABB RAPID",
@@ -70,7 +62,6 @@ DIALECT = Dialect(
     _prelude,
     _notation,
     notation_fields=("cf1", "cf4", "cf6", "cfx"),
-    flag_terms=_flag_terms,
     aliases=("abb",),
     analog_said=_analog_said,
 )

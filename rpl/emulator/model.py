@@ -19,7 +19,7 @@ from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
 from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf, urdf_inertias
 from rpl.emulator.inertias import ArmInertias, arm_inertias
 from rpl.emulator.mechanismfile import NEUTRAL_PULSES, Mechanism, checked_together, pulses_of
-from rpl.emulator.postures import Fact, in_posture, posture_facts, same_posture
+from rpl.emulator.postures import has_sides, in_posture, same_posture
 from rpl.emulator.robotfile import (
     Kind,
     RobotError,
@@ -298,9 +298,10 @@ class RobotModel:
         """About the joints (n,) of another arm in the posture and the turns of `joints` (rpl.emulator.postures)."""
         return same_posture(self, joints, other)
 
-    def posture_facts(self) -> dict[str, Fact]:
-        """The posture as inequalities over the joints; empty where the arm's build has none."""
-        return posture_facts(self)
+    @property
+    def has_sides(self) -> bool:
+        """Can its posture be compared with that of another arm, side by side (rpl.emulator.postures)?"""
+        return has_sides(self)
 
     def jacobian(self, joints: ArrayLike) -> FloatArray:
         """Geometric Jacobian (..., 6, n) at the flange origin, base frame: mm/rad (mm/mm) above, rad/rad below.

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.passes.analog import AnalogRanges
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
-
-if TYPE_CHECKING:
-    from rpl.emulator.postures import Fact
 
 
 class Arm(Protocol):
@@ -51,7 +48,8 @@ class Arm(Protocol):
 
     def posture(self, joints: Any) -> Any: ...
 
-    def posture_facts(self) -> dict[str, Fact]: ...
+    @property
+    def has_sides(self) -> bool: ...
 
     def in_posture(self, flange: Any, near: Any, asked: Mapping[str, str]) -> Any: ...
 

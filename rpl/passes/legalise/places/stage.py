@@ -21,7 +21,6 @@ from rpl.passes.legalise.places.nextmove.turningtimes import turning_times
 from rpl.passes.legalise.places.partialplaces import partial_places
 from rpl.passes.legalise.places.postures.askedpostures import asked_postures
 from rpl.passes.legalise.places.postures.configurations import configurations
-from rpl.passes.legalise.places.postures.flagreadings import flag_readings
 from rpl.passes.legalise.places.postures.freepostures import free_postures
 from rpl.passes.legalise.places.postures.jointgoals import joint_goals
 from rpl.passes.legalise.places.postures.knownjoints import known_joints
@@ -57,7 +56,6 @@ STAGE = Stage(
         three_point_arcs,
         circle_rules,
         destinations,
-        flag_readings,
         free_postures,
         *OTHER_ARM,
         told_turns,

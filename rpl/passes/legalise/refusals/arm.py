@@ -1,4 +1,4 @@
-"""Kinematics of the arm that a program calculates."""
+"""Kinematics and postures of the arm that a program calculates."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import get_args
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.facts.usage import each_expression
+from rpl.passes.legalise.places.postures.configurations import FLAG_ACCESS
 from rpl.passes.legalise.refusals.rows import Asked, Found, Refusal
 from rpl.passes.typing import type_of
 
@@ -52,4 +53,7 @@ def _unsolved(statement: ir.Statement, asked: Asked) -> Found:
     return tuple(found)
 
 
-ARM = (Refusal("kinematics of the arm in a program", KINEMATICS, get_args(ir.Statement), _unsolved),)
+ARM = (
+    Refusal("kinematics of the arm in a program", KINEMATICS, get_args(ir.Statement), _unsolved),
+    Refusal("a flag of the arm configuration that the run decides", FLAG_ACCESS),
+)

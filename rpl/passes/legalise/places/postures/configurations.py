@@ -57,6 +57,7 @@ FLAG_ACCESS = code(
     "configuration-field",
     Severity.LOSS,
     "{name} is part of the arm configuration, which the target writes otherwise",
+    "look at the joints instead, or keep a number beside the place that says which posture it has",
     stops=True,
 )
 
@@ -171,8 +172,7 @@ class _Configurations(Rewriter):
         same = all(one == first for one in found)
         if not same or not isinstance(first, dict) or set(first) != set(_AXES) or not isinstance(last, ir.Move):
             return done
-        entries = tuple((name, ir.RealLiteral(float(value))) for name, value in first.items())
-        joints = ir.Aggregate(entries, type_name="joints")
+        joints = ir.Aggregate(tuple((name, real(float(value))) for name, value in first.items()), type_name="joints")
         return [*done[:-1], replace(last, target=ir.Builtin("target_to_joints_near", (last.target, joints)))]
 
     def unchecked(self, done: list[ir.Statement]) -> list[ir.Statement]:
@@ -298,9 +298,8 @@ class _Configurations(Rewriter):
 
     def is_flag(self, field: ir.Field) -> bool:
         base = self.type_of(field.base)
-        if not isinstance(base, ir.TargetType | ir.ConfigType):
-            return False
-        return field.name in registry.dialect(base.notation).notation_fields
+        notation = base.notation if isinstance(base, ir.TargetType | ir.ConfigType) else None
+        return notation is not None and field.name in registry.dialect(notation).notation_fields
 
     @property
     def checked(self) -> bool:
@@ -323,9 +322,7 @@ class _Configurations(Rewriter):
                 known = self.flag_values(expression).only
                 if known is not None:
                     return ir.IntLiteral(known, origin=expression.origin)
-                self.context.diagnostics.report(FLAG_ACCESS, expression.origin, name=name)
-                self.before.append(ir.Opaque(expression.origin.text or name, origin=expression.origin))
-                return ir.IntLiteral(0)
+                return self.refused_reading(name, self.at(expression))
             case ir.Field(base=base, name=name) if self.other_arm and name in _AXES:
                 if isinstance(self.type_of(base), ir.JointsType | ir.AxesType):
                     self.single_axis(self.at(expression))
@@ -336,6 +333,13 @@ class _Configurations(Rewriter):
                 if isinstance(type, ir.JointsType) and self.other_arm:
                     return self.joints(expression)
         return super().expression(expression)
+
+    def refused_reading(self, name: str, origin: Origin) -> ir.Expression:
+        """A stop before the statement, one for all flags that it asks for; the report names each."""
+        self.context.diagnostics.report(FLAG_ACCESS, origin, name=name)
+        if not any(isinstance(one, ir.Opaque) and one.origin is origin for one in self.before):
+            self.before.append(ir.Opaque(origin.text or name, origin=origin))
+        return ir.IntLiteral(0)
 
     def single_axis(self, origin: Origin) -> None:
         """The angle of one axis, set or looked at, is another one on another arm; told once for each line."""
@@ -502,8 +506,7 @@ class _Configurations(Rewriter):
 
     def tell_changed(self, what: str, expression: ir.Expression) -> None:
         assert self.to_arm is not None and self.changed is not None  # only where it was changed for another arm
-        before, after = self.changed
-        words = {"arm": self.to_arm.name, "what": what, "before": before, "after": after}
+        words = {"arm": self.to_arm.name, "what": what, "before": self.changed[0], "after": self.changed[1]}
         self.context.diagnostics.report(POSTURE_CHANGED, self.at(expression), **words)
 
     def why_not(self, flange: Any) -> str:

@@ -29,7 +29,7 @@ def differing(one: Any, other: Any) -> int:
 def changed_posture(arm: Arm, joints: Any, other: Arm, found: Any) -> tuple[str, str] | None:
     """The family at joints (n,) of one arm and at those found for the other, as far as they certainly differ; None
     where they do not, or where the arms are of two builds."""
-    if not (arm.posture_facts() and other.posture_facts()):
+    if not (arm.has_sides and other.has_sides):
         return None
     before, after = _sides(arm, joints), _sides(other, found)
     apart = [name for name in _COST if None not in (before[name], after[name]) and before[name] != after[name]]
