@@ -1,4 +1,5 @@
-"""Whether a variable has a value yet, in targets that cannot ask: a BOOL beside it, where the answer is not certain."""
+"""Whether a variable has a value yet, in targets that cannot ask: a BOOL beside it, where the answer is not certain.
+What cannot be followed is refused at its place."""
 
 from __future__ import annotations
 
@@ -9,12 +10,12 @@ from rpl.project import ReadProgram, read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.refusing import refused
 
 ROUTINES = {
     "may": ".PROGRAM may(a, b)\n IF b == 1 THEN\n a = 3\n END\n.END\n",
     "passed": ".PROGRAM passed(a, b)\n CALL may(a, b)\n.END\n",
     "count": ".PROGRAM count()\n IF NOT DEFINED(total) THEN\n total = 0\n END\n total = total+1\n.END\n",
-    "fill": ".PROGRAM fill()\n a[2] = 1\n.END\n",
     "both": ".PROGRAM both(a, low, high, done)\n IF DEFINED(low) THEN\n done = done+low\n END\n"
     " IF DEFINED(high) THEN\n done = done+high\n END\n.END\n",
     "given": ".PROGRAM given(a, done)\n done = DEFINED(a)\n.END\n",
@@ -31,14 +32,14 @@ CASES = {
     "counter": ("FOR i = 1 TO 0\nEND", "DEFINED(i)"),
     "text": ('IF NOT DEFINED($t) THEN\n$t = "x"\nEND', "DEFINED($t)"),
     "place": ("IF NOT DEFINED(p) THEN\nSET p = TRANS(1,2,3,0,0,0)\nEND", "DEFINED(p)"),
-    "not by the routine": ("CALL may(n, 0)", "NOT DEFINED(n)"),
-    "by the routine": ("CALL may(n, 1)", "DEFINED(n)"),
-    "by a routine of the routine": ("CALL passed(m, 0)\nCALL passed(n, 1)", "DEFINED(n) AND NOT DEFINED(m)"),
-    "of an element": ("LOCAL a[9]\na[0] = 4\na[7] = 9\ni = 7", "DEFINED(a[i]) AND NOT DEFINED(a[8]) AND DEFINED(a[0])"),
-    "of an element by a routine": ("a[1] = 4\nCALL fill()", "DEFINED(a[2]) AND DEFINED(a[1]) AND NOT DEFINED(a[3])"),
     "of the project": ("CALL count()\nCALL count()", "total == 2"),
     "of parameters behind one left out": ("m = 0\nCALL both(1, 2, 4, m)\nCALL both(1, , 8, m)", "m == 14"),
-    "of a parameter": ("m = 5\nCALL given(m, i)\nCALL given(n, q)", "i AND NOT q"),
+}
+REFUSED = {
+    "set by a routine": ("CALL may(n, 1)", "DEFINED(n)", 4),
+    "set by a routine of a routine": ("CALL passed(n, 1)", "DEFINED(n)", 4),
+    "an element": ("LOCAL a[9]\na[0] = 4", "NOT DEFINED(a[8])", 5),
+    "a parameter": ("CALL given(n, i)", "NOT i", 9),
 }
 
 
@@ -71,8 +72,9 @@ def test_what_is_certain_needs_no_flag() -> None:
     assert "n_set" not in "".join(file.data.decode() for file in written.files)
 
 
-def test_lists_that_a_routine_fills_are_refused_by_name() -> None:
-    diagnostics = Diagnostics()
-    text = program("LOCAL a[3]\na[1] = 1\nCALL into(a[])", "DEFINED(a[2])")
-    translate_program(read(text + ".PROGRAM into(x[])\n x[2] = 1\n.END\n"), "rapid", None, None, diagnostics)
-    assert ["is_uninitialised" in item.message for item in diagnostics.of(Severity.LOSS)] == [True]
+@pytest.mark.parametrize("target", ["rapid", "tp", "inform", "urscript"])
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_followed_is_refused_at_its_place(name: str, target: str) -> None:
+    statements, holds, line = REFUSED[name]
+    told = refused(program(statements, holds), "vplus", target, "adept_viper_s650")
+    assert told == [("value-question-lost", line)]

@@ -1,10 +1,14 @@
-"""Routines that the target's calls cannot serve."""
+"""Routines and data that the target's calls and variables cannot serve."""
 
 from __future__ import annotations
 
 from rpl.passes.legalise.control.locals import RECURSION
 from rpl.passes.legalise.refusals.rows import Refusal
+from rpl.passes.legalise.routines.undefined import REFUSED as VALUE
 
 __all__ = ["ROUTINES"]
 
-ROUTINES = (Refusal("a routine that calls itself, where all calls share its variables", RECURSION),)
+ROUTINES = (
+    Refusal("a routine that calls itself, where all calls share its variables", RECURSION),
+    Refusal("the question whether an element, a parameter, or what a routine has set has a value yet", VALUE),
+)

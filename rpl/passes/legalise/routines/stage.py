@@ -12,7 +12,6 @@ from rpl.passes.legalise.routines.results import list_results
 from rpl.passes.legalise.routines.subscriptchecks import checked_subscripts
 from rpl.passes.legalise.routines.textpartchecks import checked_text_parts
 from rpl.passes.legalise.routines.undefined import asked_values
-from rpl.passes.legalise.routines.undefinedparts import asked_elements
 from rpl.passes.legalise.routines.valuearrays import copy_value_arrays
 from rpl.passes.legalise.stages import Stage
 
@@ -24,7 +23,6 @@ STAGE = Stage(
         fit_parameters,
         asked_values,
         given_arrays,
-        asked_elements,
         copy_value_arrays,
         checked_subscripts,
         checked_text_parts,

@@ -1,23 +1,32 @@
 """Questions whether a variable has a value yet (V+ DEFINED, KRL VARSTATE), for targets that cannot ask.
 
-A variable that is asked about gets a BOOL beside it that becomes TRUE wherever the variable is assigned; what is
-assigned on every way to the question needs none. A parameter gets a parameter beside it. What cannot be followed
-(single elements of lists, calls by a computed name, what happens on a path) stays, and the target refuses it.
+What is assigned on every way to the question has a value. Another variable gets a BOOL beside it that becomes TRUE
+wherever the variable is assigned, as programmers of such targets write it. A parameter that each call gives a value has
+one. Elements of lists, other parameters, and what routines or actions on a path give values are refused.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.definite import Definite
-from rpl.passes.legalise.facts.usage import assigned_in, base_name
+from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression, each_statement
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 
+REFUSED = code(
+    "value-question-lost",
+    Severity.LOSS,
+    "the target cannot ask whether {name} has a value yet",
+    "give it a first value that means none, or keep a BOOL beside it",
+    stops=True,
+)
 _ASKED = "is_uninitialised"
 # Built-in procedures that always give their first argument a value.
 _STORING = frozenset(("increment", "decrement", "clear", "text_clear", "text_copy", "text_append"))
@@ -28,16 +37,40 @@ def asked_values(program: ir.Program, context: Context) -> ir.Program:
     """The program without the question, as far as it can be followed."""
     if not any(isinstance(node, ir.Builtin) and node.function == _ASKED for node in walk(*program.modules)):
         return program
-    program = _rewritten(program, context, _Flags())
-    flags = _Facts(program).flags(context)
-    return _rewritten(program, context, flags) if flags.names else program
+    calls = _Calls()
+    program = _rewritten(program, _Flags(), calls)
+    program = _rewritten(program, _Facts(program).flags(context, calls), _Calls())
+    for module in program.modules:
+        for body in (body for routine in module.routines for body in bodies(routine)):
+            each_statement(body, partial(_refused, context=context))
+    return program
+
+
+def _refused(statement: ir.Statement, context: Context) -> None:
+    """Tell the questions of a statement that are left; no writer of such a target can say it."""
+
+    def look(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Builtin) and expression.function == _ASKED:
+            name = base_name(expression.arguments[0]) or "it"
+            context.diagnostics.report(REFUSED, statement.origin, name=name)
+
+    each_expression(statement, look)
+
+
+@dataclass(slots=True)
+class _Calls:
+    """Parameters (routine, parameter; folded) that calls give a value for certain, and that one may not."""
+
+    certain: set[tuple[str, str]] = field(default_factory=set)
+    doubtful: set[tuple[str, str]] = field(default_factory=set)
 
 
 @dataclass(slots=True)
 class _Flags:
-    """id of a declaration (variable or parameter) -> the name of the BOOL beside it."""
+    """names: id of a declaration -> the name of the BOOL beside it; certain: ids of parameters that have a value."""
 
     names: dict[int, str] = field(default_factory=dict)
+    certain: set[int] = field(default_factory=set)
 
     def of(self, name: str, scope: Scope) -> str | None:
         symbol = scope.value(name)
@@ -53,26 +86,15 @@ class _Flags:
                 made.append(ir.Variable(name, ir.BoolType(), ir.BoolLiteral(False), one.storage, one.scope))
         return tuple(made)
 
-    def parameters(self, routine: ir.Routine) -> tuple[ir.Parameter, ...]:
-        """The routine's parameters with their flags behind all of them."""
-        more = (
-            ir.Parameter(self.names[id(one)], ir.BoolType(), one.mode)
-            for one in routine.parameters
-            if id(one) in self.names
-        )
-        return (*routine.parameters, *more)
 
-
-def _rewritten(program: ir.Program, context: Context, flags: _Flags) -> ir.Program:
+def _rewritten(program: ir.Program, flags: _Flags, calls: _Calls) -> ir.Program:
     scopes = ProgramScope(program)
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            flow = _Flow(scopes.routine(module, routine), context, flags)
-            done = flow.routine(routine)
-            declarations = (*flags.beside(routine.declarations), *flow.added)
-            routines.append(replace(done, parameters=flags.parameters(routine), declarations=declarations))
+            done = _Flow(scopes.routine(module, routine), flags, calls).routine(routine)
+            routines.append(replace(done, declarations=flags.beside(routine.declarations)))
         modules.append(replace(module, declarations=flags.beside(module.declarations), routines=tuple(routines)))
     return replace(program, modules=tuple(modules))
 
@@ -80,17 +102,14 @@ def _rewritten(program: ir.Program, context: Context, flags: _Flags) -> ir.Progr
 class _Flow(Definite):
     """One routine: questions that are decided, questions that a flag answers, and where flags become TRUE."""
 
-    def __init__(self, scope: Scope, context: Context, flags: _Flags) -> None:
+    def __init__(self, scope: Scope, flags: _Flags, calls: _Calls) -> None:
         super().__init__()
-        self.scope = scope
-        self.context = context
-        self.flags = flags
-        self.added: list[ir.Variable] = []
+        self.scope, self.flags, self.calls = scope, flags, calls
 
     def question(self, expression: ir.Expression) -> ir.Expression:
         match expression:
             case ir.Builtin(function=function, arguments=(ir.Name(id=name),)) if function == _ASKED:
-                if name.lower() in self.known or _starts_with_value(name, self.scope):
+                if self.has_value(name):
                     return ir.BoolLiteral(False, origin=expression.origin)
                 flag = self.flags.of(name, self.scope)
                 return expression if flag is None else ir.Unary("not", ir.Name(flag), origin=expression.origin)
@@ -98,45 +117,34 @@ class _Flow(Definite):
                 return operand
             case ir.Unary(op="not", operand=ir.BoolLiteral(value=value)):
                 return ir.BoolLiteral(not value, origin=expression.origin)
-            case ir.Call(name=routine, arguments=arguments):
-                return replace(expression, arguments=self.arguments(routine, arguments))
+            case ir.Call(name=name, arguments=arguments):
+                self.note(name, arguments)
         return expression
 
+    def has_value(self, name: str) -> bool:
+        symbol = self.scope.value(name)
+        if name.lower() in self.known or symbol is None:
+            return symbol is not None
+        declaration = symbol.declaration
+        starts = isinstance(declaration, ir.Variable) and declaration.initial is not None
+        return starts or id(declaration) in self.flags.certain
+
     def calling(self, statement: ir.CallRoutine) -> ir.CallRoutine:
-        if statement.dynamic is not None:
-            return statement
-        return replace(statement, arguments=self.arguments(statement.name, statement.arguments))
+        self.note(statement.name, statement.arguments)
+        return statement
+
+    def note(self, name: str, arguments: tuple[ir.Argument, ...]) -> None:
+        """Which parameters a call gives a value."""
+        routine = self.scope.routine(name)
+        for parameter, value in () if routine is None else _given(routine, arguments, self.scope):
+            certain = value is not None and not (isinstance(value, ir.Name) and not self.has_value(value.id))
+            certain = certain and not isinstance(value, ir.Index | ir.Field)
+            (self.calls.certain if certain else self.calls.doubtful).add((name.lower(), parameter.name.lower()))
 
     def now_set(self, name: str) -> ir.Body:
         """The flag of a variable that has just got its value."""
         flag = self.flags.of(name, self.scope)
         return () if flag is None else (ir.Assign(ir.Name(flag), ir.BoolLiteral(True)),)
-
-    def arguments(self, name: str, arguments: tuple[ir.Argument, ...]) -> tuple[ir.Argument, ...]:
-        """The arguments of a call, and the flags for the parameters that have one."""
-        routine = self.scope.routine(name)
-        if routine is None:
-            return arguments
-        more = []
-        for parameter, value in _given(routine, arguments, self.scope):
-            if id(parameter) in self.flags.names:
-                flag = self.flags.of(value.id, self.scope) if isinstance(value, ir.Name) else None
-                more.append(ir.Argument(self.certain(parameter) if flag is None else ir.Name(flag)))
-        return (*arguments, *more)
-
-    def certain(self, parameter: ir.Parameter) -> ir.Expression:
-        """TRUE; a variable where the routine may write it."""
-        if parameter.mode != "reference":
-            return ir.BoolLiteral(True)
-        if not self.added:
-            name = self.context.fresh("has_value")
-            self.added.append(ir.Variable(name, ir.BoolType(), ir.BoolLiteral(True), scope="routine"))
-        return ir.Name(self.added[0].name)
-
-
-def _starts_with_value(name: str, scope: Scope) -> bool:
-    symbol = scope.value(name)
-    return symbol is not None and isinstance(symbol.declaration, ir.Variable) and symbol.declaration.initial is not None
 
 
 def _given(
@@ -151,45 +159,38 @@ def _given(
 
 
 class _Facts:
-    """What the questions that are left ask about, and what is connected with it by calls."""
+    """asked: id of each variable that the questions which are left ask about -> its name; lost: ids of those that get
+    values in other ways than by statements of their own."""
 
     def __init__(self, program: ir.Program) -> None:
-        self.names: dict[int, str] = {}
-        self.asked: set[int] = set()
+        self.asked: dict[int, str] = {}
         self.lost: set[int] = set()
-        self.passed: list[tuple[int, ir.Parameter, bool]] = []  # variable, parameter, may the routine assign it?
+        self.beside: set[str] = set()  # routines (folded) that are called in other ways than by name
+        self.program = program
         scopes = ProgramScope(program)
         for module, routine in scopes.routines():
             scope = scopes.routine(module, routine)
             for node in (node for body in bodies(routine) for node in walk(body)):
                 self.node(node, scope)
-        if any(isinstance(node, ir.CallRoutine) and node.dynamic is not None for node in walk(*program.modules)):
-            self.lost.update(id(one) for _, routine in scopes.routines() for one in routine.parameters)
         for module in program.modules:
             for declaration in module.declarations:
                 if isinstance(declaration, ir.Initialise):
                     self.lose(scopes.module(module), base_name(declaration.assign.target))
 
-    def known(self, scope: Scope, name: str) -> int | None:
-        """The declaration of a variable or parameter."""
-        symbol = scope.value(name)
-        if symbol is None or not isinstance(symbol.declaration, ir.Variable | ir.Parameter):
-            return None
-        self.names[id(symbol.declaration)] = symbol.declaration.name
-        return id(symbol.declaration)
-
     def lose(self, scope: Scope, *names: str | None) -> None:
         for name in names:
-            found = self.known(scope, name) if name is not None else None
-            if found is not None:
-                self.lost.add(found)
+            symbol = scope.value(name) if name is not None else None
+            if symbol is not None:
+                self.lost.add(id(symbol.declaration))
 
     def node(self, node: object, scope: Scope) -> None:
         match node:
             case ir.Builtin(function=function, arguments=(ir.Name(id=name),)) if function == _ASKED:
-                found = self.known(scope, name)
-                if found is not None:
-                    self.asked.add(found)
+                symbol = scope.value(name)
+                if symbol is not None and isinstance(symbol.declaration, ir.Variable):
+                    self.asked[id(symbol.declaration)] = symbol.declaration.name
+            case ir.CallRoutine(arguments=arguments, dynamic=dynamic) if dynamic is not None:
+                self.lose(scope, *(base_name(one.value) for one in arguments if one.value is not None))
             case ir.CallRoutine(name=name, arguments=arguments) | ir.Call(name=name, arguments=arguments):
                 self.call(name, arguments, scope)
             case ir.Do(procedure=procedure, arguments=arguments):
@@ -197,7 +198,7 @@ class _Facts:
                 self.lose(scope, *map(base_name, changed[1:] if procedure in _STORING else changed))
             case ir.DeclareInterrupt() | ir.Trigger() | ir.DefineTrigger() | ir.Spline() | ir.OrderInterrupt():
                 self.lose(scope, *assigned_in((node,)), *(one for body in _actions(node) for one in assigned_in(body)))
-                self.unfollowed(node, scope)
+                self.beside |= {one.name.lower() for one in walk(node) if isinstance(one, ir.CallRoutine)}
             case ir.Move(search=search, triggers=triggers):
                 if search is not None:
                     places = [one for one in (search.found, search.hit) if one is not None]
@@ -207,62 +208,31 @@ class _Facts:
             case ir.Dialog(answer=answer, timed_out=flag):
                 self.lose(scope, *(base_name(one) for one in (answer, flag) if one is not None))
             case ir.TaskControl(task=task, arguments=arguments) if arguments:
-                started = scope.routine(task)
-                self.lost.update(() if started is None else map(id, started.parameters))
-
-    def unfollowed(self, node: object, scope: Scope) -> None:
-        """Parameters of routines that are called beside the program."""
-        for one in walk(node):
-            if isinstance(one, ir.CallRoutine):
-                routine = scope.routine(one.name)
-                self.lost.update(() if routine is None else map(id, routine.parameters))
+                self.call(task, arguments, scope)
+                self.beside.add(task.lower())
 
     def call(self, name: str, arguments: tuple[ir.Argument, ...], scope: Scope) -> None:
+        """What a routine may give a value through its parameters."""
         routine = scope.routine(name)
         if routine is None:
             self.lose(scope, *(base_name(one.value) for one in arguments if one.value is not None))
             return
-        changed = {one for body in bodies(routine) for one in assigned_in(body)}
+        changed = assigned_in(*bodies(routine))
         for parameter, value in _given(routine, arguments, scope):
-            self.names[id(parameter)] = parameter.name
-            if parameter.optional or parameter.switch:
-                self.lost.add(id(parameter))
-            writes = parameter.mode == "reference" and parameter.name.lower() in changed
-            match value:
-                case ir.Name(id=given):
-                    found = self.known(scope, given)
-                    if found is not None:
-                        self.passed.append((found, parameter, writes))
-                case ir.Index() | ir.Field() if writes:
-                    self.lose(scope, base_name(value))
+            if value is not None and parameter.mode == "reference" and parameter.name.lower() in changed:
+                self.lose(scope, base_name(value))
 
-    def flags(self, context: Context) -> _Flags:
-        wanted = set(self.asked)
-        size = -1
-        while size != len(wanted):
-            size = len(wanted)
-            for variable, parameter, writes in self.passed:
-                if id(parameter) in wanted:
-                    wanted.add(variable)
-                if variable in wanted and writes:
-                    wanted.add(id(parameter))
-        lost = wanted & self.lost
-        size = -1
-        while size != len(lost):
-            size = len(lost)
-            for variable, parameter, writes in self.passed:
-                pair = {variable, id(parameter)}
-                if pair & lost and (writes or id(parameter) in wanted):
-                    lost |= pair & wanted
-        wanted -= lost
-        return _Flags({one: context.fresh(self.flag_name(one)) for one in sorted(wanted, key=self.place)})
-
-    def flag_name(self, one: int) -> str:
-        return f"{self.names[one].lstrip('$#')}_set"
-
-    def place(self, one: int) -> tuple[str, int]:
+    def flags(self, context: Context, calls: _Calls) -> _Flags:
         """Names are given in an order that does not hang on where things are kept."""
-        return self.names[one].lower(), list(self.names).index(one)
+        wanted = sorted((key for key in self.asked if key not in self.lost), key=lambda key: self.asked[key].lower())
+        dynamic = any(isinstance(node, ir.CallRoutine) and node.dynamic for node in walk(*self.program.modules))
+        certain = set[int]()
+        for routine in () if dynamic else (one for module in self.program.modules for one in module.routines):
+            name = routine.name.lower()
+            for one in routine.parameters if name not in self.beside else ():
+                if (name, one.name.lower()) in calls.certain - calls.doubtful:
+                    certain.add(id(one))
+        return _Flags({key: context.fresh(f"{self.asked[key].lstrip('$#')}_set") for key in wanted}, certain)
 
 
 def _actions(node: object) -> list[ir.Body]:
