@@ -14,7 +14,6 @@ from rpl.passes.legalise.places.externalplaces import external_places
 from rpl.passes.legalise.places.nextmove.joinedmoves import joined_moves
 from rpl.passes.legalise.places.nextmove.movetimes import move_times
 from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
-from rpl.passes.legalise.places.nextmove.nextmovecalls import next_moves_behind_calls
 from rpl.passes.legalise.places.nextmove.queuedwaits import queued_waits
 from rpl.passes.legalise.places.nextmove.scaledaccelerations import scaled_accelerations
 from rpl.passes.legalise.places.nextmove.turningtimes import turning_times
@@ -38,7 +37,6 @@ STAGE = Stage(
     "places",
     (
         queued_waits,
-        next_moves_behind_calls,
         settings_of_next_move,
         scaled_accelerations,
         joined_moves,

@@ -1,8 +1,8 @@
 """Settings for the next move only, as settings of that move, for targets without such statements.
 
 It must be certain which move is the next: followed through straight lines, and into every branch of a choice. A value
-that may change on the way is kept. Where the next move is not certain, the statement stays (the writer puts a stop
-there) and the reason is reported.
+that may change on the way is kept. Where the next move is not certain, or stands in a routine that is called, the
+setting is refused with the reason.
 """
 
 from __future__ import annotations
@@ -18,12 +18,15 @@ from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.facts.effects import blocks, is_constant, statements_in
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside, leaves
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
 
 UNCERTAIN = code(
     "next-move-uncertain",
     Severity.LOSS,
     "{setting} is set for the next move, and which one that is cannot be said here: {reason}",
+    "set it directly in front of its move",
+    stops=True,
 )
 # Settings that moves say with their speed and their corner.
 _AT_MOVES = frozenset(("path_speed", "joint_speed", "blend_distance", "blend_joint"))
@@ -53,7 +56,6 @@ def settings_of_next_move(program: ir.Program, context: Context) -> ir.Program:
             left = follow.body(body, {})
             if id(routine) not in outermost:
                 follow.lose(left or {}, "the routine ends before it")
-        follow.report()
         return edit_bodies(routine, _Attach(editor, follow).body)
 
     return edit_routines(program, context, work)
@@ -102,13 +104,6 @@ class _Follow:
     def lose(self, waiting: Waiting, reason: str) -> None:
         for one in waiting.values():
             one.lost = one.lost or reason
-
-    def report(self) -> None:
-        for one in self.every.values():
-            if one.lost:
-                setting = one.statement.setting
-                name = setting.name.replace("_", " ") if isinstance(setting, ir.System) else "a setting"
-                self.editor.context.diagnostics.report(UNCERTAIN, one.statement.origin, setting=name, reason=one.lost)
 
     def body(self, body: ir.Body, waiting: Waiting) -> Waiting | None:
         """The settings that no move of the body has taken; None where its end is not reached."""
@@ -183,16 +178,28 @@ class _Attach:
         self.editor = editor
         self.follow = follow
         self.kept: dict[int, ir.Name] = {}
+        self.told: set[tuple[int, int]] = set()  # source and line of what is refused
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
+
+    def refused(self, statement: ir.SetForNextMove, reason: str) -> ir.Body:
+        """One stop for all settings of one line of the source."""
+        line = (id(statement.origin.source), statement.origin.line)
+        if line in self.told:
+            return ()
+        if statement.origin.source is not None:
+            self.told.add(line)
+        setting = statement.setting
+        name = setting.name.replace("_", " ") if isinstance(setting, ir.System) else "a setting"
+        return (stopped(statement, UNCERTAIN, self.editor.context, setting=name, reason=reason),)
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.SetForNextMove(value=value) if set_at_move(statement, self.editor.capabilities):
                 pending = self.follow.every[id(statement)]
                 if pending.lost:
-                    return (statement,)
+                    return self.refused(statement, pending.lost)
                 if pending.changes and not _fixed(value):
                     type = self.editor.type_of(value)
                     if type is None:
@@ -215,11 +222,6 @@ class _Attach:
 
 def _fixed(value: ir.Expression) -> bool:
     return is_constant(value) or isinstance(value, ir.EnumLiteral)
-
-
-def fixed_setting(statement: ir.SetForNextMove) -> bool:
-    """Is the value the same wherever and whenever it is asked?"""
-    return _fixed(statement.value)
 
 
 def _pair(statement: ir.SetForNextMove, kept: ir.Name | None) -> tuple[ir.Expression, ir.Expression]:
