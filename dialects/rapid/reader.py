@@ -18,7 +18,7 @@ from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
 from .blocks import Blocks, is_statement, part
-from .dialogs import with_dialogs
+from .dialogs import may_ask
 from .instructions import INSTRUCTIONS
 from .iosignals import attribute, is_configuration, ranges
 from .parser import RapidParser
@@ -67,8 +67,12 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     if modules:
         kept = tuple(attribute(one) for source in configurations for one in ranges(source.text))
         modules[0] = replace(modules[0], attributes=(*modules[0].attributes, *kept))
-    own = frozenset(project.routines.union(*project.local_routines.values()))
-    program = with_dialogs(ir.Program(tuple(modules), _tasks(modules)), own, diagnostics)
+    program = ir.Program(tuple(modules), _tasks(modules))
+    if any(may_ask(source.text) for source in usable):
+        from .askingfunctions import with_dialogs  # brings the rewriting along, which reading has no other use for
+
+        own = frozenset(project.routines.union(*project.local_routines.values()))
+        program = with_dialogs(program, own, diagnostics)
     return ReadResult(program, tuple(reports))
 
 

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.rules import QUANTITIES, SLOWEST, Range, refusal
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies, children, statements, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.scope import ProgramScope, Scope
-from rpl.passes.values import Record, pose_of
+from rpl.passes.values import Record, Value, pose_of
 from rpl.source import Origin
 
 if TYPE_CHECKING:
@@ -79,6 +79,8 @@ _PARTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("path_acceleration", "path_acceleration", ("mm/s2", "m/s2")),
     ("axis_acceleration", "axis_acceleration", ("deg/s2", "rad/s2")),
 )
+_NO_ROTATION = 1e-6  # all parts of a quaternion together
+_WITHOUT_PARTS = frozenset((ir.Name, ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.System))
 _LENGTHS, _ANGLES, _PERCENT = ("mm", "cm", "m", "inch"), ("deg", "rad"), ("percent",)
 
 
@@ -92,6 +94,7 @@ def motion_values(program: ir.Program, diagnostics: Diagnostics) -> None:
             checked.declaration(declaration, scope)
         for routine in module.routines:
             inner = scopes.routine(module, routine)
+            checked.names = {}
             for declaration in routine.declarations:
                 checked.declaration(declaration, inner)
             for body in bodies(routine):
@@ -130,6 +133,15 @@ class _Module:
     def __init__(self, module: ir.Module, scope: Scope, diagnostics: Diagnostics) -> None:
         self.module, self.diagnostics, self.rules = module, diagnostics, scope.rules.inputs
         self.off: list[tuple[float, Origin]] = []
+        self.names: dict[str, Value | None] = {}  # what names are worth in the routine that is looked at
+
+    def constant(self, expression: ir.Expression, scope: Scope) -> Value | None:
+        """The value of an expression; of a name (speeds, zones: the same ones in move after move) it is kept."""
+        if not isinstance(expression, ir.Name):
+            return constant(expression, scope)
+        if expression.id not in self.names:
+            self.names[expression.id] = constant(expression, scope)
+        return self.names[expression.id]
 
     # ---- data
 
@@ -145,10 +157,8 @@ class _Module:
         if self.rules.rotation_limits is None:
             return
         good, usable = self.rules.rotation_limits
-        for node in walk(root):
-            if not isinstance(node, ir.Aggregate) or node.type_name != "rotation" or len(node.entries) != 4:
-                continue
-            parts = [constant_number(entry, scope) for _, entry in node.entries]
+        for node in _rotations(root):
+            parts = [number_of(entry, scope) for _, entry in node.entries]
             squares = sum(part * part for part in parts if part is not None)
             if None in parts or abs(squares - 1.0) <= good:
                 continue
@@ -218,6 +228,8 @@ class _Module:
         self, name: str, value: ir.Expression | None, origin: Origin, scope: Scope, units: tuple[str, ...] = ()
     ) -> None:
         """A value of a system variable, or of what stands for it in a move; `units`: the ones that fit."""
+        if value is None:
+            return
         what, unit = QUANTITIES.get(name, (name, ""))
         if isinstance(value, ir.Quantity) and units and value.unit not in units:
             self.diagnostics.report(UNIT, origin, unit=value.unit, what=what, wanted=", ".join(units))
@@ -225,15 +237,15 @@ class _Module:
         allowed = self.rules.range_of(name)
         if allowed is not None:
             self.within(name, allowed, value, origin, scope)
-        number = constant_number(value, scope) if value is not None and name in _HELD else None
+        number = constant_number(value, scope) if name in _HELD else None
         if number is not None:
             least, most = scope.rules.percents_of(name)
             taken = min(max(number, least), most)
             if taken != number:
                 self.diagnostics.report(HELD, origin, what=what, value=number, unit=unit, taken=taken)
 
-    def within(self, name: str, allowed: Range, value: ir.Expression | None, origin: Origin, scope: Scope) -> None:
-        number = constant_number(value, scope) if value is not None else None
+    def within(self, name: str, allowed: Range, value: ir.Expression, origin: Origin, scope: Scope) -> None:
+        number = constant_number(value, scope)
         if number is None:
             return
         why = refusal(name, number, allowed)
@@ -266,7 +278,7 @@ class _Module:
 
     def zone(self, zone: ir.Expression, origin: Origin, scope: Scope) -> None:
         """A corner given by several sizes, of which none may be below nothing."""
-        value, allowed = constant(zone, scope), self.rules.range_of("blend_distance")
+        value, allowed = self.constant(zone, scope), self.rules.range_of("blend_distance")
         if not isinstance(value, Record) or value.part("stop") or allowed is None:
             return
         sizes = [value.part(name) for name in ("path", "rotation_path", "external_path")]
@@ -281,7 +293,7 @@ class _Module:
         if speed is not None and move.motion_class != "velocity":
             self.speed("path speed", speed.path, move.origin, scope)
             self.speed("axis speed", speed.joint if speed.joint is not None else speed.axis, move.origin, scope)
-            profile = constant(speed.profile, scope) if speed.profile is not None and speed.path is None else None
+            profile = self.constant(speed.profile, scope) if speed.profile is not None and speed.path is None else None
             path = profile.part("path") if isinstance(profile, Record) else None
             if isinstance(path, int | float) and speed.duration is None:
                 self.speed_of("path speed", float(path), move.origin)
@@ -375,7 +387,7 @@ class _Module:
             case ir.BlendZone(distance=distance) if distance is not None:
                 return constant_number(distance, scope) or 0.0
             case ir.BlendZone(zone=zone):
-                value = constant(zone, scope)
+                value = self.constant(zone, scope)
                 path = value.part("path") if isinstance(value, Record) and not value.part("stop") else None
                 return float(path) if isinstance(path, int | float) else 0.0
         return 0.0
@@ -441,6 +453,10 @@ class _RunColumns:
 
 
 def _place(expression: ir.Expression, scope: Scope) -> rigid.Vector | None:
+    if isinstance(expression, ir.Aggregate):
+        found = _written_position(expression)
+        if found is not None:
+            return found
     pose = pose_of(constant(expression, scope))
     if pose is not None:
         return pose.position
@@ -450,6 +466,60 @@ def _place(expression: ir.Expression, scope: Scope) -> rigid.Vector | None:
     numbers = {str(name).lower(): constant_number(value, scope) for name, value in expression.entries}
     x, y, z = (numbers.get(name) for name in "xyz")
     return None if x is None or y is None or z is None else rigid.Vector(x, y, z)
+
+
+def _written_position(target: ir.Aggregate) -> rigid.Vector | None:
+    """The position of a target that is written out in numbers, as most are: for it nobody has to know what the whole is
+    worth. None where it takes more to tell."""
+    if not (target.type_name or "").startswith("target"):
+        return None
+    groups = [value for _, value in target.entries if isinstance(value, ir.Aggregate)]
+    if not groups:
+        found = dict(target.entries)
+        x, y, z = (written_number(found.get(name)) for name in "xyz")
+        return None if x is None or y is None or z is None else rigid.Vector(x, y, z)
+    parts = [(name, written_number(value)) for group in groups for name, value in group.entries]
+    numbers = [number for name, number in parts if number is not None and name is None]
+    if (
+        [(one.type_name, len(one.entries)) for one in groups[:2]] != [("vector", 3), ("rotation", 4)]
+        or not len(groups) == len(target.entries) == len(ir.POSITIONAL[ir.TargetType])
+        or len(numbers) != len(parts)
+        or not sum(map(abs, numbers[3:7])) > _NO_ROTATION
+        or any(name is not None for name, _ in target.entries)
+    ):
+        return None
+    return rigid.Vector(*numbers[:3])
+
+
+def _rotations(root: ir.Expression) -> Iterator[ir.Aggregate]:
+    """The quaternions that are written out in an expression, outer ones first."""
+    work: list[object] = [root]
+    while work:
+        node = work.pop()
+        if node.__class__ in _WITHOUT_PARTS:
+            continue
+        if not isinstance(node, ir.Aggregate):
+            work += reversed(children(node))
+            continue
+        if node.type_name == "rotation" and len(node.entries) == 4:
+            yield node
+        work += [value for _, value in reversed(node.entries) if value.__class__ not in _WITHOUT_PARTS]
+
+
+def written_number(value: ir.Expression | None) -> float | None:
+    """The number that an expression is, with its sign. None for anything else."""
+    match value:
+        case ir.RealLiteral() | ir.IntLiteral():
+            return float(value.value)
+        case ir.Unary("-", ir.RealLiteral() | ir.IntLiteral() as operand):
+            return -float(operand.value)
+    return None
+
+
+def number_of(value: ir.Expression, scope: Scope) -> float | None:
+    """As `constant_number`, which takes its time for what mostly is a number."""
+    written = written_number(value)
+    return constant_number(value, scope) if written is None else written
 
 
 def _bodies(statement: ir.Statement) -> Iterator[ir.Body]:
@@ -470,7 +540,7 @@ def _tool_set(program: ir.Program, scopes: ProgramScope, diagnostics: Diagnostic
     routines = [routine for module in modules for routine in module.routines]
     first: ir.Move | None = None
     for routine in routines:
-        for node in walk(*bodies(routine)):
+        for node in statements(*bodies(routine)):
             match node:
                 case ir.Assign(target=ir.System(name="tool")) | ir.CallRoutine() | ir.Vendor():
                     return  # set here, or perhaps in what is called
