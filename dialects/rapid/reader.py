@@ -14,11 +14,13 @@ from rpl.reading.assemble import assemble
 from rpl.reading.ledger import FileReport
 from rpl.reading.pieces import Attribute, Item, ModulePart
 from rpl.reading.runs import Cursor, Runs
+from rpl.reading.templates import Templates
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
 from .blocks import Blocks, is_statement, part
 from .dialogs import may_ask
+from .functions import FUNCTIONS
 from .instructions import INSTRUCTIONS
 from .iosignals import attribute, is_configuration, ranges
 from .parser import RapidParser
@@ -84,7 +86,9 @@ def _read_file(
     cursor = Cursor()
     runs = Runs(source, parser, statements.lower, cursor, diagnostics, signs_placed=False)
     pieces = split(source, parser, statement_names(project, source.path), cursor)
-    assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics, runs)
+    plain = plain_names(project)
+    alike = Templates(parser, statements.lower, diagnostics, lambda name: name.lower() in plain)
+    assembly = assemble(source, "rapid", pieces, parser, statements.lower, blocks.build, diagnostics, runs, alike)
     task = _TASK_FOLDER.search(source.path)
     parts = _parts(assembly.items, source, diagnostics)
     modules = [
@@ -106,6 +110,15 @@ def statement_names(project: Project, path: str) -> frozenset[str]:
     """Names that begin a statement: installed instructions and the project's procedures as this file sees them."""
     own = project.routines | project.local_routines.get(path, set())
     return (frozenset(INSTRUCTIONS) | EFFECTS.keys() | own) - project.declared
+
+
+def plain_names(project: Project) -> frozenset[str]:
+    """Names of the project's data that no statement treats otherwise than any other one. (Those of the controller's
+    data come again and again, so that what stands with them is kept with them.)"""
+    told = project.types | project.signal_parameters | project.routines.union(*project.local_routines.values())
+    return frozenset(
+        project.declared - PREDEFINED_NAMES - told - INSTRUCTIONS.keys() - FUNCTIONS.keys() - EFFECTS.keys()
+    )
 
 
 def _attributes(data: object) -> tuple[tuple[str, str], ...]:

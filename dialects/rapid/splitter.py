@@ -233,7 +233,8 @@ class _Splitter:
         return True
 
     def begins_line(self, at: int) -> bool:
-        line = max(self.text.rfind("\n", 0, at), self.text.rfind("\r", 0, at)) + 1
+        line = self.text.rfind("\n", 0, at) + 1
+        line = max(self.text.rfind("\r", line, at) + 1, line)
         return not self.text[line:at].strip()
 
     def before(self, start: int, at: int) -> int:

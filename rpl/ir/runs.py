@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from rpl.ir.expressions import Expression, IntLiteral, RealLiteral, Unary
 from rpl.ir.motion import Move
@@ -24,7 +24,8 @@ if TYPE_CHECKING:  # who only starts the program does not wait for it
 CELL = r"(-?(?:[0-9]{1,12}\.[0-9]{0,12}|\.[0-9]{1,12}|[0-9]{1,12}))"
 
 Spellings = tuple[str, ...]
-_Make = Callable[[Spellings, Origin], object]
+Row = TypeVar("Row")
+Make = Callable[[Row, Origin], object]  # what a node is in one move, which stands at that place
 
 
 class Columns:
@@ -84,15 +85,17 @@ class Run:
     def maker(self) -> Callable[[Spellings, Origin], Move]:
         """make(spellings, origin): the move with these numbers, at that place."""
         sample, placed = self.sample, self.columns.placed
-        cells: dict[int, _Make] = {id(cell): _number_at(at, placed) for at, cell in enumerate(self.columns.cells)}
-        made = _maker(sample, cells, sample.origin)
+        cells: dict[int, Make[Spellings]] = {
+            id(cell): _number_at(at, placed) for at, cell in enumerate(self.columns.cells)
+        }
+        made = maker_of(sample, cells, sample.origin)
         return cast(Callable[[Spellings, Origin], Move], made or (lambda spellings, origin: sample))
 
     def rewritten(self, sample: Move, rewrite: Callable[[Move], Move]) -> Run | None:
         """The run with a sample that `rewrite` has made of its own. None where a number is not there once, or where the
         numbers decide what is made."""
         wanted = {id(cell) for cell in self.columns.cells}
-        found = [key for key in map(id, _below(sample)) if key in wanted]
+        found = [key for key in map(id, below(sample)) if key in wanted]
         if not len(found) == len(wanted) == len(set(found)):
             return None
         done, other = replace(self, sample=sample), self.other_kinds()
@@ -106,8 +109,10 @@ class Run:
 
     def with_cells(self, cells: tuple[Expression, ...]) -> Move:
         """The sample with other expressions in place of its numbers."""
-        other = {id(old): _same(new) for old, new in zip(self.columns.cells, cells, strict=True)}
-        made = _maker(self.sample, other, self.sample.origin)
+        other: dict[int, Make[Spellings]] = {
+            id(old): _same(new) for old, new in zip(self.columns.cells, cells, strict=True)
+        }
+        made = maker_of(self.sample, other, self.sample.origin)
         return cast(Move, made((), self.sample.origin)) if made is not None else self.sample
 
 
@@ -122,47 +127,61 @@ def literal(spelling: str, origin: Origin = NOWHERE) -> Expression:
     return number if digits is spelling else Unary("-", number, origin=origin)
 
 
-def _number_at(column: int, placed: bool) -> _Make:
+def _number_at(column: int, placed: bool) -> Make[Spellings]:
     return lambda spellings, origin: literal(spellings[column], origin if placed else NOWHERE)
 
 
-def _maker(node: object, cells: Mapping[int, _Make], origin: Origin) -> _Make | None:
+def maker_of(node: object, cells: Mapping[int, Make[Row]], origin: Origin) -> Make[Row] | None:
     """What makes the node of another move: other numbers, and that move's place where the node has the sample's. None:
     it is the same in all moves."""
     if node is origin:
-        return lambda spellings, there: there
+        return lambda row, there: there
     if id(node) in cells:
         return cells[id(node)]
     if isinstance(node, tuple):
-        parts = [_maker(part, cells, origin) for part in node]
-        if not any(parts):
-            return None
-        return _made_tuple(tuple(make or _same(part) for make, part in zip(parts, node, strict=True)))
+        return _maker_of_tuple(node, cells, origin)
     if isinstance(node, Origin | type) or not is_dataclass(node):
         return None
     kind: Callable[..., object] = node.__class__
     names = tuple(one.name for one in fields(node))
-    made = [_maker(getattr(node, name), cells, origin) for name in names]
+    made = [maker_of(getattr(node, name), cells, origin) for name in names]
     if not any(made):
         return None
     changing = tuple((name, make) for name, make in zip(names, made, strict=True) if make is not None)
-    kept = {name: getattr(node, name) for name, make in zip(names, made, strict=True) if make is None}
+    sample = {name: getattr(node, name) for name in names}
 
-    def build(spellings: Spellings, there: Origin) -> object:
-        return kind(**kept, **{name: make(spellings, there) for name, make in changing})
+    def build(row: Row, there: Origin) -> object:
+        given = sample.copy()
+        for name, make in changing:
+            given[name] = make(row, there)
+        return kind(**given)
 
     return build
 
 
-def _same(node: object) -> _Make:
-    return lambda spellings, origin: node
+def _same(node: object) -> Make[Row]:
+    return lambda row, origin: node
 
 
-def _made_tuple(makes: tuple[_Make, ...]) -> _Make:
-    return lambda spellings, origin: tuple([make(spellings, origin) for make in makes])
+def _maker_of_tuple(node: tuple[object, ...], cells: Mapping[int, Make[Row]], origin: Origin) -> Make[Row] | None:
+    pairs = [part for part in node if isinstance(part, tuple) and len(part) == 2 and not is_dataclass(part[0])]
+    if len(pairs) == len(
+        node
+    ):  # parts with their names: only these are made, most of what there is in a list of points
+        inner = [(name, maker_of(value, cells, origin), (name, value)) for name, value in pairs]
+        if not any(make for _, make, _ in inner):
+            return None
+        return lambda row, there: tuple(
+            [pair if make is None else (name, make(row, there)) for name, make, pair in inner]
+        )
+    parts = [maker_of(part, cells, origin) for part in node]
+    if not any(parts):
+        return None
+    made = tuple((make or _same(part)) for make, part in zip(parts, node, strict=True))
+    return lambda row, there: tuple([make(row, there) for make in made])
 
 
-def _below(node: object) -> Iterator[object]:
+def below(node: object) -> Iterator[object]:
     """Every object of a node, tuples entered."""
     stack = [node]
     while stack:

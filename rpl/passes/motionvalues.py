@@ -453,10 +453,10 @@ class _RunColumns:
 
 
 def _place(expression: ir.Expression, scope: Scope) -> rigid.Vector | None:
-    if isinstance(expression, ir.Aggregate):
-        found = _written_position(expression)
-        if found is not None:
-            return found
+    written = _written_out(expression, scope)
+    found = None if written is None else _written_position(written)
+    if found is not None:
+        return found
     pose = pose_of(constant(expression, scope))
     if pose is not None:
         return pose.position
@@ -466,6 +466,19 @@ def _place(expression: ir.Expression, scope: Scope) -> rigid.Vector | None:
     numbers = {str(name).lower(): constant_number(value, scope) for name, value in expression.entries}
     x, y, z = (numbers.get(name) for name in "xyz")
     return None if x is None or y is None or z is None else rigid.Vector(x, y, z)
+
+
+def _written_out(expression: ir.Expression, scope: Scope) -> ir.Aggregate | None:
+    """The list that is written here, or of the constant of that name."""
+    if isinstance(expression, ir.Name):
+        symbol = scope.value(expression.id)
+        if symbol is None or (symbol.module is None and symbol.routine is None):
+            return None
+        declared = symbol.declaration
+        if not isinstance(declared, ir.Variable) or declared.storage != "constant" or declared.initial is None:
+            return None
+        expression = declared.initial
+    return expression if isinstance(expression, ir.Aggregate) else None
 
 
 def _written_position(target: ir.Aggregate) -> rigid.Vector | None:

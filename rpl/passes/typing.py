@@ -61,6 +61,13 @@ _NUMBERS = frozenset((ir.IntLiteral, ir.RealLiteral))
 Typed = tuple[ir.Expression, ir.Type | None]
 
 
+def _is_number(expression: ir.Expression) -> bool:
+    """Is it a number that is written out, with or without a minus?"""
+    if isinstance(expression, ir.Unary) and expression.op == "-":
+        expression = expression.operand
+    return expression.__class__ in _NUMBERS
+
+
 def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
     """The type of a normalised expression; None when it rests on something unknown."""
     typer = Typer(scope, Diagnostics())
@@ -246,7 +253,7 @@ class Typer:
         strict: bool = False,
         place: tuple[str, int] | None = None,
     ) -> ir.Expression:
-        if expression.__class__ in _NUMBERS and wanted.__class__ is ir.RealType:
+        if wanted.__class__ is ir.RealType and _is_number(expression):
             return expression
         done, found = self.infer(expression, wanted)
         if wanted is None or found is None or wanted == found:
@@ -458,8 +465,11 @@ class Typer:
             if inner is None and layout.complete:
                 what = written or f"number {position + 1}"
                 self.report(UNKNOWN_COMPONENT, expression.origin, type=layout.word, name=what)
-            if value.__class__ in _NUMBERS and inner.__class__ is ir.RealType:
+            kind = value.__class__
+            if inner.__class__ is ir.RealType and (kind in _NUMBERS or _is_number(value)):
                 new = value  # as `coerced` has it; most of what there is in a list of points
+            elif isinstance(value, ir.Aggregate) and inner is not None and inner.__class__ is not ir.CharType:
+                new = self.aggregate(value, inner)[0]
             else:
                 new = self.assigned(value, inner)
             if new is not value or name != written:

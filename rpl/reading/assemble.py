@@ -32,6 +32,7 @@ from rpl.reading.pieces import (
 )
 from rpl.reading.runs import Runs
 from rpl.reading.shapes import ShapeParser, StatementError, SyntaxTree, TooDeepError
+from rpl.reading.templates import Templates
 from rpl.source import Comment, Origin, Source
 
 UNREADABLE = code(
@@ -96,11 +97,13 @@ def assemble(
     build: Build,
     diagnostics: Diagnostics,
     runs: Runs | None = None,
+    templates: Templates | None = None,
 ) -> Assembly:
     """Read one source. Every block kind is opened, divided and closed by the elements that `lower` gives. `runs`: takes
-    long runs of moves at once, and then sets the cursor of whoever gives the pieces."""
+    long runs of moves at once, and then sets the cursor of whoever gives the pieces. `templates`: read statements that
+    are alike."""
     with paused_cycle_collector():
-        assembler = _Assembler(source, parser, lower, build, diagnostics, runs)
+        assembler = _Assembler(source, parser, lower, build, diagnostics, runs, templates)
         for piece in pieces:
             assembler.take(piece)
         return assembler.finish(dialect)
@@ -115,8 +118,10 @@ class _Assembler:
         build: Build,
         diagnostics: Diagnostics,
         runs: Runs | None,
+        templates: Templates | None,
     ) -> None:
-        self.source, self.parser, self.lower, self.build, self.runs = source, parser, lower, build, runs
+        self.source, self.parser, self.lower, self.build = source, parser, lower, build
+        self.runs, self.templates = runs, templates
         self.diagnostics = diagnostics
         self.ledger = Ledger(source)
         self.comments: list[Comment] = []
@@ -174,6 +179,8 @@ class _Assembler:
 
     def read(self, piece: Piece, origin: Origin) -> Element | tuple[Element, ...]:
         try:
+            if self.templates is not None:
+                return self.templates.read(piece.text, origin)
             tree, numbers = self.parser.parse(piece.text)
             return self.lower(tree, numbers, origin)
         except RecursionError:  # costs its statement like any other damage

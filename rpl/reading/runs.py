@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.runs import CELL
-from rpl.reading.shapes import ShapeParser, StatementError, SyntaxTree
+from rpl.reading.alike import identical, quietly
+from rpl.reading.shapes import ShapeParser, SyntaxTree
 from rpl.source import Origin, Source
 
 if TYPE_CHECKING:  # who reads no long program does not wait for it
@@ -89,7 +90,8 @@ class Runs:
         if self.seen <= ENOUGH or start < self.passed:
             return None
         text = self.source.text
-        line = max(text.rfind("\n", 0, start), text.rfind("\r", 0, start)) + 1
+        line = text.rfind("\n", 0, start) + 1
+        line = max(text.rfind("\r", line, start) + 1, line)
         ended = _ENDED.match(text, end)
         margin = text[line:start]
         if ended is None or margin.strip(" \t"):
@@ -193,15 +195,7 @@ class Runs:
 
     def lowered(self, text: str, origin: Origin) -> object:
         """What is read of a statement. None where something is reported: then each line has to be."""
-        before = len(self.diagnostics)
-        try:
-            done = self.lower(*self.parser.parse(text), origin)
-        except StatementError:
-            return None
-        if len(self.diagnostics) == before:
-            return done
-        del self.diagnostics.items[before:]
-        return None
+        return quietly(self.parser, self.lower, self.diagnostics, text, origin)
 
     def proved(
         self,
@@ -223,7 +217,7 @@ class Runs:
                 continue
             start, end = int(spans[0][at]), int(spans[1][at])
             made = make(tuple(spellings[at * count : (at + 1) * count]), Origin(self.source, start, end))
-            if not _identical(self.read(start, end), made):
+            if not identical(self.read(start, end), made):
                 return False
             shape.proved.add(combination)
         return True
@@ -250,14 +244,3 @@ def _at(node: object, path: _Path) -> object:
     for step in path:
         node = node[step] if isinstance(node, tuple) and isinstance(step, int) else getattr(node, str(step), None)
     return node
-
-
-def _identical(one: object, other: object) -> bool:
-    """Equal to the spelling and the place, which comparing nodes leaves out."""
-    if one.__class__ is not other.__class__:
-        return False
-    if isinstance(one, tuple) and isinstance(other, tuple):
-        return len(one) == len(other) and all(map(_identical, one, other))
-    if is_dataclass(one) and not isinstance(one, Source):
-        return all(_identical(getattr(one, each.name), getattr(other, each.name)) for each in fields(one))
-    return one is other or one == other
