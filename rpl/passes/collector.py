@@ -11,11 +11,15 @@ from contextlib import contextmanager
 
 @contextmanager
 def paused_cycle_collector() -> Iterator[None]:
-    """No search for cycles inside; afterwards as before."""
+    """No search for cycles inside; afterwards as before. What has come into being then counts as old: the next search
+    for young cycles would go through all of it."""
     enabled = gc.isenabled()
     gc.disable()
     try:
         yield
     finally:
         if enabled:
+            if not gc.get_freeze_count():
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()

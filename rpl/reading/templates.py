@@ -78,7 +78,7 @@ class Templates:
         """What the statement is. Raises StatementError."""
         parts = _PLACES.split(text)
         if len(parts) == 1:
-            return self.lower(*self.parser.parse(text), origin)
+            return self.usual(text, origin)
         names = self.names
         kinds = tuple([names[one] if one[0] in _NAME else (one[0] == "-") + 2 * ("." in one) for one in parts[1::2]])
         key = tuple(parts[::2]), kinds
@@ -88,10 +88,13 @@ class Templates:
             assert isinstance(made, ir.Move | ir.Variable)  # no other one is proved
             return made
         before = len(self.diagnostics)
-        done = self.lower(*self.parser.parse(text), origin)
+        done = self.usual(text, origin)
         if isinstance(done, ir.Move | ir.Variable) and len(self.diagnostics) == before:
             self.prove(key, parts, done)
         return done
+
+    def usual(self, text: str, origin: Origin) -> Element | tuple[Element, ...]:
+        return self.lower(*self.parser.parse(text), origin)
 
     def prove(self, key: _Key, parts: _Parts, done: ir.Move | ir.Variable) -> None:
         """Is this what the template gives? It is made when its shape is seen for the second time."""
