@@ -94,6 +94,16 @@ def has_components(type: ir.Type | None) -> bool:
     return isinstance(type, ir.NamedType | ir.ArrayType) or type.__class__ in ir.POSITIONAL
 
 
+NUMBERS = frozenset((ir.IntLiteral, ir.RealLiteral))
+
+
+def is_number(expression: ir.Expression) -> bool:
+    """Is it a number that is written out, with or without a minus?"""
+    if isinstance(expression, ir.Unary) and expression.op == "-":
+        expression = expression.operand
+    return expression.__class__ in NUMBERS
+
+
 def clash(wanted: ir.Type, found: ir.Type, exact: bool = False) -> bool:
     """Certainly incompatible: a text, number or BOOL where another of these is needed. `exact`: of the built-in types
     with components each is one of its own, and so is each declared record (which the scope has resolved)."""

@@ -23,12 +23,14 @@ from rpl.passes.typerules import (
     INT,
     KIND_TYPES,
     LOGIC,
+    NUMBERS,
     ORDERED,
     REAL,
     TEXT,
     arithmetic,
     clash,
     has_components,
+    is_number,
     pose_result,
     quotient,
     sign,
@@ -57,15 +59,7 @@ TOO_MANY = code("too-many-arguments", Severity.ERROR, "{name} takes {takes}; {gi
 
 # What most expressions of a point list are: their own normal form, of a type that their class tells.
 _LITERALS: dict[type, ir.Type] = {ir.IntLiteral: INT, ir.RealLiteral: REAL, ir.BoolLiteral: BOOL, ir.Present: BOOL}
-_NUMBERS = frozenset((ir.IntLiteral, ir.RealLiteral))
 Typed = tuple[ir.Expression, ir.Type | None]
-
-
-def _is_number(expression: ir.Expression) -> bool:
-    """Is it a number that is written out, with or without a minus?"""
-    if isinstance(expression, ir.Unary) and expression.op == "-":
-        expression = expression.operand
-    return expression.__class__ in _NUMBERS
 
 
 def type_of(expression: ir.Expression, scope: Scope) -> ir.Type | None:
@@ -253,7 +247,7 @@ class Typer:
         strict: bool = False,
         place: tuple[str, int] | None = None,
     ) -> ir.Expression:
-        if wanted.__class__ is ir.RealType and _is_number(expression):
+        if wanted.__class__ is ir.RealType and is_number(expression):
             return expression
         done, found = self.infer(expression, wanted)
         if wanted is None or found is None or wanted == found:
@@ -466,7 +460,7 @@ class Typer:
                 what = written or f"number {position + 1}"
                 self.report(UNKNOWN_COMPONENT, expression.origin, type=layout.word, name=what)
             kind = value.__class__
-            if inner.__class__ is ir.RealType and (kind in _NUMBERS or _is_number(value)):
+            if inner.__class__ is ir.RealType and (kind in NUMBERS or is_number(value)):
                 new = value  # as `coerced` has it; most of what there is in a list of points
             elif isinstance(value, ir.Aggregate) and inner is not None and inner.__class__ is not ir.CharType:
                 new = self.aggregate(value, inner)[0]
