@@ -9,6 +9,7 @@ from rpl.registry import Target
 if TYPE_CHECKING:
     from rpl.ir import Program
     from rpl.passes.capabilities import Capabilities
+    from rpl.passes.legalise.stages import Placed
     from rpl.writing.target import OutputFile, WriteContext
 
 
@@ -24,4 +25,10 @@ def _write(program: Program, context: WriteContext) -> list[OutputFile]:
     return write(program, context)
 
 
-TARGET = Target("val3", "Staubli VAL3", _capabilities, _write)
+def _passes() -> tuple[Placed, ...]:
+    from .passes import PASSES
+
+    return PASSES
+
+
+TARGET = Target("val3", "Staubli VAL3", _capabilities, _write, passes=_passes)

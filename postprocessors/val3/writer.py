@@ -17,9 +17,7 @@ from rpl.writing.text import number_text
 from . import tables
 from .data import Datum, Store
 from .expressions import NULL, Expressions, point_row, pose_row, root_of
-from .passes.names import names_of, one_namespace
-from .passes.pulses import pulses_as_tasks
-from .passes.waits import waits_put_in
+from .namespace import names_of, one_namespace
 from .statements import Statements, indented
 
 UNLINKED = code(
@@ -36,10 +34,7 @@ _ATTRIBUTE_SIGNS = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "
 
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All files of the application. Raises InternalError when a node was neither written nor reported."""
-    if context.foreign:
-        program = waits_put_in(program, context.diagnostics)
-    program = one_namespace(pulses_as_tasks(program))
-    return _Application(program, context).files()
+    return _Application(one_namespace(program), context).files()
 
 
 class _Application:

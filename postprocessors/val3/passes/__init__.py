@@ -1,1 +1,13 @@
-"""Rewritings that VAL3 alone needs."""
+"""What only VAL3 needs of a program, each pass with its place among those of the core."""
+
+from __future__ import annotations
+
+from rpl.passes.legalise.stages import Placed
+
+from .pulses import pulses_as_tasks
+from .waits import waits_put_in
+
+PASSES: tuple[Placed, ...] = (
+    Placed(waits_put_in, "storage", behind="number_data"),
+    Placed(pulses_as_tasks, "storage", behind="number_data"),
+)

@@ -10,12 +10,15 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 
-def pulses_as_tasks(program: ir.Program) -> ir.Program:
-    """The program with a task in the place of each pulse of constant length to a constant level."""
+@legalising(sees=("Pulse",))
+def pulses_as_tasks(program: ir.Program, context: Context) -> ir.Program:
+    """A task in the place of each pulse of constant length to a constant level."""
     taken = {routine.name for module in program.modules for routine in module.routines}
     made: dict[ir.Pulse, str] = {}
     for node in walk(*program.modules):

@@ -13,7 +13,9 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import children, walk
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
 CORNER = code(
@@ -29,10 +31,11 @@ _ACTS = (
 _LOOKS = frozenset(("current_target", "current_joints", "current_position", "clock_seconds", "task_runs"))
 
 
-def waits_put_in(program: ir.Program, diagnostics: Diagnostics) -> ir.Program:
-    """The program with a wait wherever the robot has to stand before a statement."""
+@legalising(sees=("Move", "MoveExternal", "Spline"))
+def waits_put_in(program: ir.Program, context: Context) -> ir.Program:
+    """A wait wherever the robot has to stand before a statement."""
     routines = {routine.name: routine for module in program.modules for routine in module.routines}
-    worker = _Waits(_moving(routines), _watched(program), diagnostics)
+    worker = _Waits(_moving(routines), _watched(program), context.diagnostics)
     modules = []
     for module in program.modules:
         done = []

@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 
-from ..tables import LONGEST_NAME, RESERVED
+from .tables import LONGEST_NAME, RESERVED
 
 
 def one_namespace(program: ir.Program) -> ir.Program:
