@@ -9,8 +9,8 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.externalaxes import leading, used_externals
+from rpl.passes.legalise.facts.pulsecounts import assumed
 from rpl.passes.legalise.rewriting.beside import closure
-from rpl.passes.legalise.source.places.pulses import assumed
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError

@@ -13,8 +13,8 @@ from collections.abc import Iterable
 from rpl import ir
 from rpl.ir.walk import expressions, walk
 from rpl.passes.legalise.facts.effects import blocks, children
+from rpl.passes.legalise.facts.runbeside import RunBeside
 from rpl.passes.legalise.rewriting.operands import stands_still
-from rpl.passes.legalise.settings.corners.standing import changed_beside
 
 _LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 _DEEPEST = 8  # calls in calls that are looked into
@@ -26,7 +26,7 @@ class Standing:
 
     def __init__(self, program: ir.Program) -> None:
         self.routines = {one.name.lower(): one for module in program.modules for one in module.routines}
-        self.changed = changed_beside(program)
+        self.changed = RunBeside.of(program).changed
         # In how many routines a name stands.
         self.routines_with = Counter(
             name

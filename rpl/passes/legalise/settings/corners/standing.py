@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.advance import is_flag, touches
+from rpl.passes.legalise.facts.runbeside import FLAGS, RunBeside, assigned_name
 from rpl.passes.legalise.facts.usage import base_name, each_expression, each_statement
 from rpl.passes.legalise.interrupts.resumes import left_by_resumes
 from rpl.passes.legalise.rewriting.editing import edit_bodies, exits
@@ -22,7 +23,6 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
 _TIMED = frozenset(("timer", "timer_stopped", "timer_positive"))
-_FLAGS = "a flag"  # in the place of a variable's name
 _MOVES = (ir.Move, ir.MoveExternal, ir.Spline)
 _LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 
@@ -68,28 +68,11 @@ class _Facts:
     @classmethod
     def of(cls, program: ir.Program) -> _Facts:
         routines = {r.name.lower(): r for module in program.modules for r in module.routines}
-        calls = {name: _called(routine) & routines.keys() for name, routine in routines.items()}
-        started = {task.entry.lower() for task in program.tasks if task.kind != "motion"}
-        for routine in routines.values():
-            for node in walk(*bodies(routine)):
-                match node:
-                    case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.ConnectInterrupt(routine=name):
-                        started.add(name.lower())
-                    case ir.Trigger(action=ir.CallRoutine(name=name)) | ir.TaskControl(task=name, op="start"):
-                        started.add(name.lower())
-        beside = _with_callees(started & routines.keys(), calls)
-        changed = {name for one in beside for name in _assigned(routines[one])}
-        changed |= {
-            name.lower()
-            for routine in routines.values()
-            for node in walk(*bodies(routine))
-            if isinstance(node, ir.DeclareInterrupt | ir.Trigger) and isinstance(node.action, ir.Assign)
-            for name in (_base(node.action.target),)
-            if name is not None
-        }
+        around = RunBeside.of(program)
+        calls, beside = around.calls, around.beside
         read = frozenset(name for one in beside for name in _looked_at(routines[one]))
         read |= {name for routine in routines.values() for name in _given(routine)}
-        known = cls(beside, frozenset(changed), frozenset(), frozenset(), read=read, left=left_by_resumes(program))
+        known = cls(beside, around.changed, frozenset(), frozenset(), read=read, left=left_by_resumes(program))
         movers = {n for n, r in routines.items() if any(isinstance(node, _MOVES) for node in walk(*bodies(r)))}
         watchful = {n for n, r in routines.items() if any(known.early(node) for node in _statements(r))}
         return replace(known, movers=_with_callers(movers, calls), watchful=_with_callers(watchful, calls))
@@ -101,7 +84,7 @@ class _Facts:
                 return True
             case ir.CallRoutine(name=name) if name.lower() in self.watchful:
                 return True
-            case ir.Assign(target=target) if (_base(target) or "").lower() in self.read:
+            case ir.Assign(target=target) if (assigned_name(target) or "").lower() in self.read:
                 return True
             case ir.For(counter=counter) if counter.lower() in self.read:
                 return True
@@ -113,7 +96,7 @@ class _Facts:
             nonlocal found
             match expression:
                 case _ if is_flag(expression):
-                    found = found or _FLAGS in self.changed
+                    found = found or FLAGS in self.changed
                 case ir.Name(id=name):
                     found = found or name.lower() in self.changed
                 case ir.System(name=name):
@@ -125,11 +108,6 @@ class _Facts:
 
         each_expression(statement, look)
         return found
-
-
-def changed_beside(program: ir.Program) -> frozenset[str]:
-    """Variables, in lower case, that interrupts, actions on the path and background tasks assign."""
-    return _Facts.of(program).changed
 
 
 def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: frozenset[str]) -> _Facts:
@@ -265,27 +243,6 @@ def _surely_inside(statement: ir.Statement) -> bool:
     return False
 
 
-def _called(routine: ir.Routine) -> set[str]:
-    return {n.name.lower() for n in walk(*bodies(routine)) if isinstance(n, ir.CallRoutine | ir.Call)}
-
-
-def _base(target: ir.Expression) -> str | None:
-    """The variable that is assigned; all flags of the controller count as one."""
-    return _FLAGS if is_flag(target) else base_name(target)
-
-
-def _assigned(routine: ir.Routine) -> set[str]:
-    own = {d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)}
-    names = set()
-    for node in walk(*bodies(routine)):
-        match node:
-            case ir.Assign(target=target):
-                names.add(_base(target))
-            case ir.Do(arguments=arguments):
-                names |= {base_name(one) for one in arguments if one is not None}
-    return {name.lower() for name in names if name is not None} - own
-
-
 def _looked_at(routine: ir.Routine) -> set[str]:
     """Variables of others that its expressions name."""
     own = {d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)}
@@ -294,7 +251,7 @@ def _looked_at(routine: ir.Routine) -> set[str]:
 
     def look(expression: ir.Expression) -> None:
         if is_flag(expression):
-            names.add(_FLAGS)
+            names.add(FLAGS)
         if isinstance(expression, ir.Name):
             names.add(expression.id.lower())
 
@@ -325,7 +282,7 @@ def _values(action: ir.Statement) -> tuple[ir.Expression, ...]:
 
 
 def _name(place: ir.Expression | None) -> str | None:
-    found = None if place is None else _base(place)
+    found = None if place is None else assigned_name(place)
     return None if found is None else found.lower()
 
 
@@ -334,14 +291,6 @@ def _statements(routine: ir.Routine) -> list[ir.Statement]:
     for body in bodies(routine):
         each_statement(body, found.append)
     return found
-
-
-def _with_callees(names: set[str], calls: dict[str, set[str]]) -> frozenset[str]:
-    done, open_ = set(names), set(names)
-    while open_:
-        open_ = {callee for name in open_ for callee in calls.get(name, ())} - done
-        done |= open_
-    return frozenset(done)
 
 
 def _with_callers(names: set[str], calls: dict[str, set[str]]) -> frozenset[str]:

@@ -10,29 +10,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rpl import ir
-from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Arm, Context
+from rpl.passes.legalise.facts.pulsecounts import EXTERNAL, count_of, report_assumed
 from rpl.passes.legalise.stages import legalising
-from rpl.source import NOWHERE, Origin
 
-PULSES_ASSUMED = code(
-    "pulses-assumed",
-    Severity.WARNING,
-    "the controller of {robot} counts no pulses; positions in pulses take {scale:g} per degree",
-    "a neutral scale for the emulator and for comparing; such numbers never drive a real arm",
-)
 _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
-_COUNTING = ("joints_from_pulses", "joint_pulses")
-_EXTERNAL = tuple(ir.COMPONENTS[ir.ExternalType])
-STATION_PULSES = code(
-    "station-pulses",
-    Severity.WARNING,
-    "external axis {number} is given in pulses, and nobody has said how many make a degree or mm; it moves by as many "
-    "degrees or mm",
-    "`pulses` of the axis of its [[mechanism]] says it",
-)
 
 
 @legalising()
@@ -44,36 +28,6 @@ def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
         report_assumed(program, context.robot, context.diagnostics)
     arm = context.robot
     return rewrite(program, lambda node: _folded(node, ratios, arm))
-
-
-def report_assumed(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> None:
-    """Say it once where a program in pulses is for an arm whose own controller counts none."""
-    if arm.pulses_per_degree is not None or arm.pulse_scale is None:
-        return
-    counted = (node for node in walk(program) if isinstance(node, ir.Builtin) and node.function in _COUNTING)
-    first = next(counted, None)
-    if first is not None:
-        assumed(arm, diagnostics, first.origin)
-
-
-def report_stations(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> None:
-    """Say once which external axes a run takes in pulses as if they were degrees or mm. `arm`: with all mechanisms."""
-    told: set[int] = set()
-    for node in walk(program):
-        if not isinstance(node, ir.Builtin) or node.function != "external_from_pulses":
-            continue
-        given = node.arguments[0]
-        for name, count in given.entries if isinstance(given, ir.Aggregate) else ():
-            number = _EXTERNAL.index(name) + 1 if name in _EXTERNAL else 0
-            known = number and arm.external_pulses(number) is not None
-            if number and number not in told and not known and _number(count) != 0.0:
-                told.add(number)
-                diagnostics.report(STATION_PULSES, count.origin, number=number)
-
-
-def assumed(arm: Arm, diagnostics: Diagnostics, origin: Origin = NOWHERE) -> None:
-    """The report of a neutral scale."""
-    diagnostics.report(PULSES_ASSUMED, origin, robot=arm.name, scale=float(arm.pulse_scale[0]))
 
 
 def _folded(node: object, ratios: Sequence[float] | None, arm: Arm | None) -> object:
@@ -102,7 +56,7 @@ def _joints(
     entries: list[tuple[str | None, ir.Expression]] = []
     for place, (name, count) in enumerate(zip(_AXES, pulses, strict=False)):
         ratio = ratios[place] if ratios is not None and place < len(ratios) else None
-        number = _number(count)
+        number = count_of(count)
         if number == 0.0:
             angle: ir.Expression = ir.RealLiteral(0.0, origin=count.origin)
         elif ratio is None:
@@ -119,20 +73,10 @@ def _external(node: ir.Builtin, counts: ir.Aggregate, arm: Arm | None) -> ir.Bui
     """External axes in degrees or mm. Their zero is known without any data."""
     entries: list[tuple[str | None, ir.Expression]] = []
     for name, count in counts.entries:
-        number = _number(count)
-        each = arm.external_pulses(_EXTERNAL.index(name) + 1) if arm is not None and name in _EXTERNAL else None
+        number = count_of(count)
+        each = arm.external_pulses(EXTERNAL.index(name) + 1) if arm is not None and name in EXTERNAL else None
         if number is None or (each is None and number != 0.0):
             return node
         value = 0.0 if each is None else rigid.clean(number / each)
         entries.append((name, ir.RealLiteral(value, origin=count.origin)))
     return ir.Aggregate(tuple(entries), "external", origin=node.origin)
-
-
-def _number(count: ir.Expression) -> float | None:
-    match count:
-        case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
-            return float(value)
-        case ir.Unary(op="-", operand=operand):
-            inner = _number(operand)
-            return None if inner is None else -inner
-    return None
