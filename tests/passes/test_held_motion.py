@@ -135,3 +135,11 @@ def test_a_move_that_would_begin_again_in_its_middle_is_refused_where_the_interr
     back = read_sources([source_from_bytes(f.path, f.data) for f in made.files], target, Diagnostics())
     result = run_program(back.program, ARM, None, made.renamed.get("main", "main"), 60.0)
     assert result.status == "stopped" and not result.outputs
+
+
+def test_what_is_left_of_a_refused_brake_is_one_remark() -> None:
+    """Also of an interrupt that comes again, which V+ would have to be told."""
+    text = program(GOING_ON["held"]).replace("\\Single,", " ")
+    source = read_sources([source_from_text("Hold.mod", text)], "rapid", Diagnostics())
+    (file,) = translate_program(source, "vplus", ARM).files
+    assert file.data.decode("ascii").count("is refused where it is declared: StopMove;") == 1
