@@ -65,16 +65,16 @@ def _notation() -> Notation:
     return NOTATION
 
 
-_OFFSETS = {"digital_out": 0, "group_out": 0, "digital_in": 1000, "group_in": 1000, "flag": 2000}
-_MOST = 999
-
-
 def _signal_name(kind: str, number: int) -> str:
     """How V+ spells a physical signal: by its number alone. Numbers that V+ has no place for say what they are."""
-    if kind not in _OFFSETS:
+    from . import tables
+
+    offset = tables.OFFSETS.get(kind.replace("group", "digital"))
+    if offset is None:
         return f"AIO.IN({number})" if kind == "analog_in" else f"AIO.OUT {number}"
-    robot = kind == "digital_out" and 3001 <= number <= 3999
-    return str(number + _OFFSETS[kind]) if number <= _MOST or robot else f"{kind} {number}"
+    first, last = tables.ROBOT_SIGNALS
+    robot = kind == "digital_out" and first <= number <= last
+    return str(number + offset) if number <= tables.MOST_SIGNALS or robot else f"{kind} {number}"
 
 
 DIALECT = Dialect(

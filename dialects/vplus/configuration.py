@@ -22,7 +22,8 @@ from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_befo
 from rpl.errors import SourceError
 from rpl.passes.rigid import angle_of
 
-WORDS: Final = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
+from .tables import FLAGS
+
 _TRANS = re.compile(r"TRANS\s*\(([^()]*)\)", re.IGNORECASE)
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)?\s*")
 
@@ -65,7 +66,7 @@ class VplusNotation:
             return Selection(found.joints[0])
         wanted = dict.fromkeys(self.fields) if reference is None else dict(self.encode(model, reference))
         wanted.update({name: value for name, value in flags.items() if value is not None and name in wanted})
-        asked = " ".join(WORDS[name][value] for name, value in wanted.items() if value is not None)
+        asked = " ".join(FLAGS[name][value] for name, value in wanted.items() if value is not None)
         return Selection(None, f"the location cannot be reached {asked}".rstrip())
 
     def select_all(
@@ -92,7 +93,7 @@ class VplusNotation:
             return text
         flags = self.encode(model, joints)
         used = ("shoulder",) if _only_elbow(model) else self.fields
-        return f"{text} ;{' '.join(WORDS[name][flags[name]] for name in used)}"
+        return f"{text} ;{' '.join(FLAGS[name][flags[name]] for name in used)}"
 
     def poses_of(self, values: FloatArray) -> FloatArray:
         """Poses (k, 4, 4) of x, y, z, yaw, pitch, roll (k, 6)."""
@@ -107,7 +108,7 @@ class VplusNotation:
         given = set(text.upper().replace(";", " ").replace(",", " ").split())
         return {
             name: next((value for value, word in enumerate(words) if word in given), None)
-            for name, words in WORDS.items()
+            for name, words in FLAGS.items()
         }
 
     def parse_pose(self, text: str) -> tuple[FloatArray, dict[str, int | None]]:

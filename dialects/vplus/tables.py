@@ -6,39 +6,39 @@ Data only. `M` marks what rests on memory of the manuals alone; each such row ha
 from __future__ import annotations
 
 from rpl import ir
+from rpl.registry import words
+from rpl.words import lowered
 
+_WORDS = words("vplus")
+_NUMBERS = _WORDS.numbers("numbers")
 REAL, TEXT = ir.RealType(), ir.StringType()
 POSE, JOINTS = ir.PoseType(), ir.JointsType(external=False)
 # What the sign in front of a function's name says of its value.
 OF_SIGIL: dict[str, ir.Type] = {"$": TEXT, "#": JOINTS}
 
-# Only so many characters of a name count (user's guide: fifteen, the rest is cut without a word). M: the sign of the
-# type in front of it is not counted.
-NAME_LENGTH = 15
+# Only so many characters of a name count; the rest is cut without a word.
+NAME_LENGTH = int(_NUMBERS["name_length"])
 
-# M: numbers of signals: outputs from 1, inputs from 1001, software signals from 2001, signals of the robot from 3001.
-# (first, last, neutral kind, what is taken off the number)
+# What is added to neutral numbers, the largest of these, and the signals of the robot.
+OFFSETS = {kind: int(number) for kind, number in _WORDS.numbers("signals").items()}
+MOST_SIGNALS = int(_NUMBERS["most_signals"])
+ROBOT_SIGNALS = (int(_NUMBERS["first_of_robot"]), int(_NUMBERS["last_of_robot"]))
+# First, last, neutral kind, what is taken off the number.
 SIGNAL_RANGES: tuple[tuple[int, int, str, int], ...] = (
-    (1, 999, "digital_out", 0),
-    (1001, 1999, "digital_in", 1000),
-    (2001, 2999, "flag", 2000),
-    (3001, 3999, "digital_out", 0),
+    *((1 + offset, MOST_SIGNALS + offset, kind, offset) for kind, offset in OFFSETS.items()),
+    (*ROBOT_SIGNALS, "digital_out", 0),
 )
-# M: the hand's solenoids are the first two signals of the robot.
-HAND_OPEN, HAND_CLOSE = 3001, 3002
+HAND_OPEN, HAND_CLOSE = int(_NUMBERS["hand_open"]), int(_NUMBERS["hand_close"])
 # M: HAND.TIME is a parameter; its default stands in for what the controller has stored. Seconds. A project that sets it
 # to one number has that number throughout, since the controller keeps it.
 HAND_TIME_S = 0.05
 # WAIT without a condition waits for the next trajectory cycle (user's guide: 16 ms).
 CYCLE_S = 0.016
-# M: a reaction without a priority has this one; V+ counts upwards, the neutral order downwards from PRIORITY_TOP.
-REACT_PRIORITY = 1
-PRIORITY_TOP = 128
+REACT_PRIORITY = 1  # M: of a reaction without one
+PRIORITY_TOP = int(_NUMBERS["priority_top"])
 
-# What 100 percent of SPEED means for straight lines and for turning the tool. M: the controller has it in its robot
-# data; these stand in for it and are what a share of it is calculated from.
-FULL_PATH_SPEED_MM_S = 1000.0
-FULL_ROTATION_SPEED_DEG_S = 180.0
+FULL_PATH_SPEED_MM_S = _NUMBERS["full_path_speed"]
+FULL_ROTATION_SPEED_DEG_S = _NUMBERS["full_rotation_speed"]
 MM_PER_INCH = 25.4
 
 # An array with an index that nobody can foresee gets at least this last index (V+ arrays grow as they are used).
@@ -57,24 +57,16 @@ CONSTANTS: dict[str, ir.Expression] = {
 
 # Functions of numbers and texts that are the neutral ones under another name: V+ name -> (neutral, count of arguments).
 FUNCTIONS: dict[str, tuple[str, int]] = {
-    "abs": ("abs", 1),
+    **{name: (neutral, 1) for name, neutral in lowered(_WORDS.pairs("functions")).items()},
     "atan2": ("atan2", 2),
-    "cos": ("cos", 1),
-    "sin": ("sin", 1),
-    "sqrt": ("sqrt", 1),
-    "fract": ("fraction", 1),
     "int": ("trunc", 1),
-    "random": ("random", 0),
-    "inverse": ("inverse", 1),
-    "len": ("text_length", 1),
-    "val": ("text_value", 1),
-    "$chr": ("from_code", 1),
-    "$time": ("time_text", 0),
-    "#phere": ("current_joints", 0),
+    **{name: (neutral, 0) for name, neutral in lowered(_WORDS.pairs("values")).items()},
 }
 
 # Whole numbers in binary: how many bytes, most significant first (V+ language reference). M: real numbers are rounded.
-BYTES: dict[str, int] = {"$intb": 2, "intb": 2, "$lngb": 4, "lngb": 4}
+BYTES: dict[str, int] = {
+    sign + name.lower(): int(count) for name, count in _WORDS.numbers("bytes").items() for sign in ("", "$")
+}
 
 # Numbers to another base: binary, hexadecimal, octal. M: VAL reads them in a text as well.
 NUMBER_MARKS: dict[str, int] = {"^b": 2, "^h": 16, "^": 8}
@@ -130,17 +122,13 @@ ERRORS: dict[str, int] = {
     "negative_argument": -410,
 }
 
-# Posture words: (neutral variable, neutral word). RIGHTY is the arm with its elbow to the right of the line from
-# shoulder to wrist; on a six-axis arm the neutral front (M), on a SCARA the positive second joint.
+# Posture words: (neutral variable, neutral word).
 POSTURES: dict[str, tuple[str, str]] = {
-    "righty": ("posture_shoulder", "front"),
-    "lefty": ("posture_shoulder", "back"),
-    "above": ("posture_elbow", "up"),
-    "below": ("posture_elbow", "down"),
-    "flip": ("posture_wrist", "flip"),
-    "noflip": ("posture_wrist", "noflip"),
+    word.lower(): (name, value) for name, words in _WORDS.nested("postures").items() for word, value in words.items()
 }
+# The notation's flags as words: (0, 1).
+FLAGS = {name: (first, second) for name, text in _WORDS.pairs("flags").items() for first, second in (text.split(),)}
 # Settings that a run of the emulated arm does not feel: whether the servos settle, how far the wrist may turn.
 SETTLING = frozenset(("null", "nonull", "single", "multiple", "overlap", "nooverlap"))
-# M: COARSE 100 is this many times as wide as FINE 100, of which `end_tolerance` is a percentage.
-COARSE_FACTOR = 10.0
+# `end_tolerance` is a percentage of FINE 100.
+COARSE_FACTOR = _NUMBERS["coarse_factor"]

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from rpl.registry import words as shared_words
+from rpl.words import spelled
 from rpl.writing.precedence import Operator, OperatorTable
+
+_WORDS = shared_words("vplus")
+_NUMBERS = _WORDS.numbers("numbers")
 
 
 def words(text: str) -> frozenset[str]:
@@ -25,7 +30,7 @@ RESERVED = words(
     write xor zero belt dry.run power cp uppper here phere pdest ppoint encode decode chr mid fldw alter alton altoff
     latch noop user spin payload update load save net calibrate mcs write mc prime sstep xstep"""
 )
-LONGEST_NAME = 15  # without the sign of the type
+LONGEST_NAME = int(_NUMBERS["name_length"])  # without the sign of the type
 LONGEST_LINE = 120
 TIMERS = 15  # TIMER 1 .. 15 can be set
 TASKS = 7  # M: tasks beside the one that runs the program, on the smallest controllers
@@ -67,30 +72,15 @@ OPERATORS = OperatorTable(
 )
 WRITTEN_OPERATORS = frozenset(("div", "**"))  # written with a function
 
-FUNCTIONS = {
-    "abs": "ABS",
-    "sqrt": "SQRT",
-    "sin": "SIN",
-    "cos": "COS",
-    "atan2": "ATAN2",
+FUNCTIONS = spelled(_WORDS.pairs("functions")) | {
     "min": "MIN",
     "max": "MAX",
-    "fraction": "FRACT",
-    "inverse": "INVERSE",
-    "text_length": "LEN",
-    "text_value": "VAL",
-    "from_code": "$CHR",
     "character_code": "ASC",
     "error_text": "$ERROR",
 }
-BYTES = {2: "INTB", 4: "LNGB"}  # whole numbers in so many bytes of a text
+BYTES = {int(count): name for name, count in _WORDS.numbers("bytes").items()}  # whole numbers in a text
 # Spelled without an argument.
-VALUES = {
-    "random": "RANDOM",
-    "time_text": "$TIME()",
-    "current_target": "HERE",
-    "current_joints": "#PHERE",
-}
+VALUES = spelled(_WORDS.pairs("values")) | {"time_text": "$TIME()", "current_target": "HERE"}
 SYSTEM = {
     "tool": "TOOL",
     "base": "INVERSE(BASE)",
@@ -106,31 +96,23 @@ SETTINGS = words(
     """acceleration_percent deceleration_percent override blending scale_acceleration end_tolerance move_duration
     posture_shoulder posture_elbow posture_wrist"""
 )
-POSTURES = {
-    ("posture_shoulder", "front"): "RIGHTY",
-    ("posture_shoulder", "back"): "LEFTY",
-    ("posture_elbow", "up"): "ABOVE",
-    ("posture_elbow", "down"): "BELOW",
-    ("posture_wrist", "flip"): "FLIP",
-    ("posture_wrist", "noflip"): "NOFLIP",
-}
+POSTURES = {(name, value): word for name, shown in _WORDS.nested("postures").items() for word, value in shown.items()}
 LAST_FLAG = 512  # soft signals 2001 to 2512
 # The notation's flags as words: (0, 1).
-FLAGS = {"shoulder": ("RIGHTY", "LEFTY"), "elbow": ("ABOVE", "BELOW"), "wrist": ("NOFLIP", "FLIP")}
+FLAGS = {name: tuple(shown.split()) for name, shown in _WORDS.pairs("flags").items()}
 
 # Signals: what is added to a neutral number, and the largest one.
-SIGNALS = {"digital_out": 0, "digital_in": 1000, "flag": 2000}
+SIGNALS = {kind: int(number) for kind, number in _WORDS.numbers("signals").items()}
 GROUPS = {"group_out": "digital_out", "group_in": "digital_in"}
-MOST_SIGNALS = 999
-ROBOT_SIGNALS = (3001, 3999)
+MOST_SIGNALS = int(_NUMBERS["most_signals"])
+ROBOT_SIGNALS = (int(_NUMBERS["first_of_robot"]), int(_NUMBERS["last_of_robot"]))
 MOST_BITS = 32
-HAND_OPEN, HAND_CLOSE = 3001, 3002  # M: the hand's solenoids
-# M: what 100 percent of SPEED is for straight lines and for turning (the reader's figures).
-FULL_PATH_SPEED_MM_S = 1000.0
-FULL_ROTATION_SPEED_DEG_S = 180.0
+HAND_OPEN, HAND_CLOSE = int(_NUMBERS["hand_open"]), int(_NUMBERS["hand_close"])
+FULL_PATH_SPEED_MM_S = _NUMBERS["full_path_speed"]
+FULL_ROTATION_SPEED_DEG_S = _NUMBERS["full_rotation_speed"]
 STANDS_MM = 0.1  # M: nearer than this to where its motion ends, the arm counts as standing
-COARSE_FACTOR = 10.0  # M: COARSE 100 is so many times as wide as FINE 100
-PRIORITY_TOP = 128  # neutral priorities go down from it
+COARSE_FACTOR = _NUMBERS["coarse_factor"]
+PRIORITY_TOP = int(_NUMBERS["priority_top"])  # neutral priorities go down from it
 AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
 PLACES = ("x", "y", "z")
