@@ -20,7 +20,7 @@ from rpl.emulator.rounding import settled
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
-from .rules import FIELDS
+from . import tables
 
 # M: what decides about flip. `b`: the sign of B (no-flip: B negative), as the points of newer jobs show it.
 # `r`: R between -90 and 90 degrees is flip (NX100 operator's manual).
@@ -59,7 +59,7 @@ class InformNotation:
     """noflip, lower, rear, r180, t180, s180."""
 
     name: Final = "inform"
-    fields: Final = FIELDS
+    fields: Final = tables.POSTURE
     pose_fields: Final = ("x", "y", "z", "rx", "ry", "rz")
 
     def encode(self, model: RobotModel, joints: FloatArray) -> dict[str, int]:

@@ -15,7 +15,7 @@ from rpl.source import Origin
 
 from . import tables
 from .arcs import grouped
-from .data import ARITHMETIC, BITS, FUNCTIONS, Statements
+from .data import Statements
 from .early import anticipated, with_actions
 from .kinds import labels_of
 from .operands import tags_of
@@ -382,7 +382,7 @@ class Control(Tasks):
 # How many operands stand behind instructions that have a fixed number of them.
 _OPERANDS = {
     "SET": 2,
-    **dict.fromkeys((*ARITHMETIC, *BITS, *FUNCTIONS, "NOT"), 2),
+    **dict.fromkeys((*tables.ARITHMETIC, *tables.BITS, *tables.FUNCTIONS, "NOT"), 2),
     **dict.fromkeys(("INC", "DEC", "TIMER"), 1),
 }
 
@@ -390,11 +390,11 @@ _METHODS: dict[str, Callable[[Control, Command], Statements]] = {
     "NOP": Control.on_nop,
     "CWAIT": Control.on_cwait,
     "SET": Control.on_set,
-    **dict.fromkeys(ARITHMETIC, Control.arithmetic),
+    **dict.fromkeys(tables.ARITHMETIC, Control.arithmetic),
     **dict.fromkeys(("INC", "DEC"), Control.on_inc),
-    **dict.fromkeys(BITS, Control.bits),
+    **dict.fromkeys(tables.BITS, Control.bits),
     "NOT": Control.on_not,
-    **dict.fromkeys(FUNCTIONS, Control.function),
+    **dict.fromkeys(tables.FUNCTIONS, Control.function),
     "CLEAR": Control.on_clear,
     **dict.fromkeys(("CAT$", "MID$", "LEN", "ASC", "CHR$", "VAL", "VAL2STR", "STRSTR"), Control.on_text),
     "GETS": Control.on_gets,

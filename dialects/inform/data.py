@@ -19,10 +19,6 @@ EXTERNAL_ELEMENT = code(
     Severity.WARNING,
     "elements of a station's position are taken as 0.0001 deg (or 0.001 mm); a position in pulses counts otherwise",
 )
-AXES = ("x", "y", "z", "c", "b", "a")
-ARITHMETIC = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/"}
-BITS = {"AND": "band", "OR": "bor", "XOR": "bxor"}
-FUNCTIONS = {"SIN": "sin", "COS": "cos", "ATAN": "atan", "SQRT": "sqrt"}
 Statements = tuple[ir.Statement, ...]
 
 
@@ -85,7 +81,7 @@ class Data(Operands):
     def arithmetic(self, command: Command) -> Statements:
         """`ADD a b` and kin: a := a op b. Whole numbers divide to whole numbers; positions element by element."""
         target, source = self.needs(command, 2)[:2]
-        op = ARITHMETIC[command.word]
+        op = tables.ARITHMETIC[command.word]
         if self.is_position(target):
             return self.position_arithmetic(command.word, target, source, command.items[2:])
         value = self.value(source)
@@ -126,7 +122,7 @@ class Data(Operands):
         if not rest:
             raise StatementError(f"{word} of an element needs a number", 0)
         factor = self.value(rest[0])
-        op = "div" if word == "DIV" and self.whole(value_of(rest[0])) else ARITHMETIC[word]
+        op = "div" if word == "DIV" and self.whole(value_of(rest[0])) else tables.ARITHMETIC[word]
 
         def scaled(number: int) -> Statements:
             value: ir.Expression = ir.Binary(op, self.element_of(target, number), factor, origin=self.origin)
@@ -169,7 +165,7 @@ class Data(Operands):
     def bits(self, command: Command) -> Statements:
         target, source = self.needs(command, 2)[:2]
         place = self.value(target)
-        return self.set(target, ir.Binary(BITS[command.word], place, self.value(source), origin=self.origin))
+        return self.set(target, ir.Binary(tables.BITS[command.word], place, self.value(source), origin=self.origin))
 
     def on_not(self, command: Command) -> Statements:
         """NOT a b: a := the byte b with all its bits changed."""
@@ -178,7 +174,7 @@ class Data(Operands):
 
     def function(self, command: Command) -> Statements:
         target, source = self.needs(command, 2)[:2]
-        return self.set(target, self.call(FUNCTIONS[command.word], self.value(source)))
+        return self.set(target, self.call(tables.FUNCTIONS[command.word], self.value(source)))
 
     # ---- texts
 
@@ -370,7 +366,7 @@ class Data(Operands):
         if number > 6:
             return ir.Field(place, f"e{number - 6}", origin=self.origin), tables.DEG_PER_COUNT
         count = tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT
-        return ir.Field(place, AXES[number - 1], origin=self.origin), count
+        return ir.Field(place, tables.POSE_ELEMENTS[number - 1], origin=self.origin), count
 
     def on_sete(self, command: Command) -> Statements:
         match command.items:

@@ -13,14 +13,12 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import Origin
 
+from . import tables
 from .jobs import ANGLE, POSE, PULSE, Job, Point
 from .kinds import Kind, kind_of_point
-from .rules import FIELDS
 
 NOT_TAUGHT = code("inform-no-point", Severity.ERROR, "{name} is not among the points of this job")
 
-_POSE_FIELDS = ("x", "y", "z", "c", "b", "a")
-_JOINT_FIELDS = ("j1", "j2", "j3", "j4", "j5", "j6")
 Literal = ir.IntLiteral | ir.RealLiteral
 
 
@@ -74,12 +72,12 @@ def _of_arm(point: Point, beyond: Entries) -> ir.Expression:
     values, origin = point.line.values, point.line.origin
     if point.form == POSE:
         entries: list[tuple[str | None, ir.Expression]] = [
-            (name, real(value)) for name, value in zip(_POSE_FIELDS, values, strict=False)
+            (name, real(value)) for name, value in zip(tables.POSE_ELEMENTS, values, strict=False)
         ]
-        entries.extend((name, ir.IntLiteral(flag)) for name, flag in zip(FIELDS, point.flags, strict=False))
+        entries.extend((name, ir.IntLiteral(flag)) for name, flag in zip(tables.POSTURE, point.flags, strict=False))
         return ir.Aggregate((*entries, *beyond), origin=origin)
     if point.form == ANGLE:
-        joints = tuple((name, real(value)) for name, value in zip(_JOINT_FIELDS, values, strict=False))
+        joints = tuple((name, real(value)) for name, value in zip(tables.JOINT_ELEMENTS, values, strict=False))
         return ir.Aggregate((*joints, *beyond), origin=origin)
     pulses: ir.Expression = ir.Builtin("joints_from_pulses", (*values, *_missing(values))[:6], origin=origin)
     return _with(pulses, ir.Aggregate(beyond, "external", origin=origin)) if beyond else pulses

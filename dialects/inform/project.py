@@ -16,6 +16,7 @@ from rpl.reading.shapes import ShapeParser
 from rpl.registry import ReadResult
 from rpl.source import Origin, Source
 
+from . import tables
 from .control import START, Control
 from .dumps import Dump, is_dump, read_dump
 from .jobs import Frame, Job, JobReader, Point, commands
@@ -23,7 +24,6 @@ from .kinds import JOINTS, Kind, Project, frame_of, kind_of_point, settle
 from .operands import TYPES, Shared, Used, plain_bank
 from .points import external_variable, value_of_point
 from .pulsebanks import without_pulse_banks
-from .signals import DIRECT_INPUTS
 from .split import SHAPE, SLOTS, split
 from .syntax import Command, Numbered, build, lower
 
@@ -245,7 +245,7 @@ class _Lowering:
             for _, nodes in job.mentions():
                 for node in nodes:
                     if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral):
-                        found.setdefault(node.index.value - DIRECT_INPUTS, node)
+                        found.setdefault(node.index.value - tables.DIRECT_INPUTS, node)
         return [
             ir.SignalDeclaration(f"RIN{number}", signal, scope="global", origin=_place(signal.origin))
             for number, signal in sorted(found.items())

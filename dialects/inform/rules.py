@@ -7,14 +7,12 @@ from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules
 
 from . import tables
 
-FIELDS = ("noflip", "lower", "rear", "r180", "t180", "s180")
-
 _EXTERNAL = {f"e{n}": f"e{n}" for n in range(1, 7)}
 _POSE = {**{name: name for name in ("x", "y", "z", "a", "b", "c")}, "rx": "c", "ry": "b", "rz": "a"}
 
 COMPONENTS = {
     "PoseType": _POSE,
-    "TargetType": {**_POSE, **_EXTERNAL, **{name: name for name in FIELDS}},
+    "TargetType": {**_POSE, **_EXTERNAL, **{name: name for name in tables.POSTURE}},
     "JointsType": {**{name: f"j{n}" for n, name in enumerate("slurbt", 1)}, **_EXTERNAL},
 }
 
@@ -23,10 +21,8 @@ COMPONENTS = {
 _VOLTS = AnalogRange((0.0, 1.0), (0.0, 1.0))
 ANALOG = (AnalogPorts("analog_in", _VOLTS), AnalogPorts("analog_out", _VOLTS))
 
-# Operator's manuals, variables: B holds 0 to 255, I has 16 bits, D 32. M: a value beyond is an alarm wherever it is
-# stored.
-_WIDTHS = {"B": Range(0, 255), "I": Range(-(2**15), 2**15 - 1), "D": Range(-(2**31), 2**31 - 1)}
-_HELD = {f"{local}{bank}": held for bank, held in _WIDTHS.items() for local in ("", "L")}
+# M: a value beyond is an alarm wherever it is stored.
+_HELD = {f"{local}{bank}": Range(*held) for bank, held in tables.WIDTHS.items() for local in ("", "L")}
 
 # M: where the pendant shows what the controller keeps.
 _KEPT_AT = {

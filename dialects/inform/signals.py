@@ -9,8 +9,10 @@ import re
 
 from rpl import ir
 from rpl.source import NOWHERE, Origin
+from rpl.words import spelled
 
-SINGLE: dict[str, str] = {"IN": "digital_in", "OT": "digital_out", "AO": "analog_out", "AI": "analog_in"}
+from . import tables
+
 GROUPS: dict[str, tuple[str, int]] = {
     "IG": ("group_in", 8),
     "OG": ("group_out", 8),
@@ -19,8 +21,6 @@ GROUPS: dict[str, tuple[str, int]] = {
 }
 _GROUP = re.compile(rf"({'|'.join(GROUPS)})#\((\d+)\)")
 _SINGLE = ("digital_in", "digital_out", "flag")
-# Direct inputs have numbers of their own; here they follow behind all others, so that they can be computed too.
-DIRECT_INPUTS = 9000
 # Signals that have a place of their own in the controller: specific inputs and outputs, auxiliary relays.
 NAMED: dict[str, str] = {
     "RIN": "digital_in",
@@ -40,13 +40,13 @@ NAMED: dict[str, str] = {
 
 def numbered(word: str, number: ir.Expression, origin: Origin) -> ir.Signal | None:
     """`IN#(3)` and the like; None when the word names no signal."""
-    if word in SINGLE:
-        return ir.Signal(SINGLE[word], number, origin=origin)
+    if word in tables.SIGNALS:
+        return ir.Signal(tables.SIGNALS[word], number, origin=origin)
     if word in GROUPS:
         kind, bits = GROUPS[word]
         return ir.Signal(kind, _line(number, bits, 1 - bits), _line(number, bits, 0), origin=origin)
     if word == "RIN" and not isinstance(number, ir.IntLiteral):
-        return ir.Signal("digital_in", _line(number, 1, DIRECT_INPUTS), origin=origin)
+        return ir.Signal("digital_in", _line(number, 1, tables.DIRECT_INPUTS), origin=origin)
     if word in NAMED and isinstance(number, ir.IntLiteral):
         return ir.Signal(NAMED[word], name=f"{word}{number.value}", origin=origin)
     return None
@@ -74,8 +74,7 @@ def signal_of(text: str) -> ir.Signal | None:
 
 def signal_name(kind: str, number: int) -> str:
     """How INFORM spells a physical signal."""
-    if kind == "digital_in" and number > DIRECT_INPUTS:
-        return f"RIN#({number - DIRECT_INPUTS})"
-    words = {"digital_in": "IN", "digital_out": "OT", "analog_in": "AI", "analog_out": "AO"}
-    words |= {"group_in": "IG", "group_out": "OG", "flag": "AX"}
+    if kind == "digital_in" and number > tables.DIRECT_INPUTS:
+        return f"RIN#({number - tables.DIRECT_INPUTS})"
+    words = spelled(tables.SIGNALS) | {"group_in": "IG", "group_out": "OG", "flag": "AX"}
     return f"{words[kind]}#({number})"

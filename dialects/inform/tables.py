@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import re
 
+from rpl.registry import words
+
+_WORDS = words("inform")
+_NUMBERS = _WORDS.numbers("numbers")
+
 # ---- units of numbers without a unit of their own
 
-# M: elements of a position (GETE, SETE, ADD ... by whole numbers): 0.001 mm and 0.0001 deg. Controllers before the
-# DX100 count angles in 0.01 deg.
-MM_PER_COUNT = 0.001
-DEG_PER_COUNT = 0.0001
-# M: a speed, time or blend that stands in a variable counts in these parts of its unit.
-VARIABLE_UNITS = {"V": 0.1, "VR": 0.1, "VJ": 0.01, "VE": 0.01, "T": 0.01, "CR": 0.1, "DIS": 0.1, "ACC": 1.0, "DEC": 1.0}
-LAST_BYTE = 255
+MM_PER_COUNT, DEG_PER_COUNT = _NUMBERS["mm_per_count"], _NUMBERS["deg_per_count"]  # of elements of a position
+VARIABLE_UNITS = _WORDS.numbers("variable_units")
+# Least and largest value of whole variables.
+WIDTHS = {bank: (int(least), int(_WORDS.numbers("largest")[bank])) for bank, least in _WORDS.numbers("least").items()}
+LAST_BYTE = WIDTHS["B"][1]
 LAST_VARIABLE = 99  # M: of B, I, D, R and S as delivered
 VOLTS_PER_COUNT = 0.01  # of a variable that AOUT is given
 PULSE_S = 0.3  # M: PULSE without a time
@@ -25,23 +28,33 @@ PATH_UNIT = "mm/s"
 
 # ---- positioning levels
 
-# M: distances in mm of PL=0..8; on a controller they are parameters of the arm (S1CxG033 and the following). The last
-# one stands for a move without PL, which a controller rounds by its acceleration.
-LEVELS = (0.0, 12.5, 25.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0, 25.0)
-STANDARD_LEVEL = 9
+# M: the last one stands for a move without PL, which a controller rounds by its acceleration.
+LEVELS = (*map(float, _WORDS.listed("levels")), 25.0)
+STANDARD_LEVEL = int(_NUMBERS["standard_level"])
 
 # ---- moves
 
-MOVE_KINDS = {"MOVJ": "joint", "MOVL": "linear", "MOVC": "circular", "MOVS": "spline", "IMOV": "linear"}
+MOVE_KINDS = _WORDS.pairs("moves") | {"IMOV": "linear"}
 MOVES = frozenset((*MOVE_KINDS, *(f"S{word}" for word in MOVE_KINDS)))
 
 # ---- frames and tools
 
-USER_FRAMES = 63
-TOOLS = 63
+USER_FRAMES, TOOLS = int(_NUMBERS["user_frames"]), int(_NUMBERS["tools"])
 # Words for a frame: the base and the robot's own (M: taken to be the same), the tool.
 BASE_WORDS = ("BF", "RF", "BASE", "ROBOT")
 TOOL_WORDS = ("TF", "TOOL")
+
+# ---- elements of positions
+
+POSE_ELEMENTS = _WORDS.listed("pose_elements")
+JOINT_ELEMENTS = _WORDS.listed("joint_elements")
+POSTURE = _WORDS.listed("posture")
+
+# ---- signals, calculation
+
+SIGNALS = _WORDS.pairs("signals")
+DIRECT_INPUTS = int(_NUMBERS["direct_inputs"])
+ARITHMETIC, BITS, FUNCTIONS = _WORDS.pairs("arithmetic"), _WORDS.pairs("bits"), _WORDS.pairs("functions")
 
 # ---- comparison and logic words
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from rpl import ir
 from rpl.reading.shapes import StatementError, SyntaxTree
+from rpl.registry import words
 
 from .expressions import Expressions, as_text
 from .facts import Facts
@@ -13,11 +14,7 @@ from .places import WORLD, Value, composed, inverted, moved_to, number_of
 from .rules import CYCLE_S
 
 # Functions of numbers that have one name in each language.
-_PLAIN = {
-    "abs": "abs", "sqrt": "sqrt", "sin": "sin", "cos": "cos", "tan": "tan", "asin": "asin", "acos": "acos",
-    "atan": "atan", "exp": "exp", "ln": "log", "log": "log10", "power": "power", "min": "min", "max": "max",
-    "round": "round", "roundUp": "ceil", "roundDown": "floor", "trunc": "trunc", "sgn": "sign",
-}  # fmt: skip
+_PLAIN = words("val3").pairs("functions") | {"round": "round", "trunc": "trunc", "sgn": "sign"}
 # Instructions that concern only the controller itself or its screen.
 _TUNING = frozenset(("enablePower", "autoConnectMove", "dioLink", "aioLink", "setVersion", "taskSetPriority"))
 _SCREEN = frozenset(("userPage", "gotoxy", "title", "setTextMode"))
@@ -55,14 +52,11 @@ class Calls(Expressions):
             "wait": self.wait,
             "setMonitorSpeed": self.monitor_speed,
             "aioSet": self.set_signal,
-            "putln": self.message("write"),
+            **{word: self.message(kind) for word, kind in words("val3").pairs("messages").items()},
             "put": self.message("write"),
-            "popUpMsg": self.message("notify"),
             "logMsg": self.message("notify"),
             "cls": lambda items: (ir.Message("clear", ir.TextLiteral(""), origin=self.origin),),
-            "taskKill": self.task("stop"),
-            "taskSuspend": self.task("pause"),
-            "taskResume": self.task("resume"),
+            **{word: self.task(op) for word, op in words("val3").pairs("tasks").items()},
         }
 
     # ---- functions

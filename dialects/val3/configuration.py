@@ -18,13 +18,10 @@ from rpl.emulator.postures import sides
 from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_xyz_moving, pose_matrix, xyz_moving_to_matrix
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
+from rpl.registry import words
 
 FREE: Final = 2
-WORDS: Final = {
-    "shoulder": ("righty", "lefty", "sfree"),
-    "elbow": ("epositive", "enegative", "efree"),
-    "wrist": ("wpositive", "wnegative", "wfree"),
-}
+WORDS: Final = {name: tuple(text.split())[:3] for name, text in words("val3").pairs("configuration").items()}
 _NUMBERS = re.compile(r"\{([^{}]*)\}")
 
 

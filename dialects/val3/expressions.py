@@ -9,6 +9,7 @@ from lark import Token, Tree
 
 from rpl import ir
 from rpl.reading.shapes import Slot, StatementError, SyntaxTree, real_number
+from rpl.registry import words
 from rpl.source import Origin
 
 from .data import FLAGS, JOINTS, POSE
@@ -26,13 +27,16 @@ TYPES: dict[str, ir.Type] = {
     "joint": ir.JointsType(external=False),
     "mdesc": ir.NamedType("mdesc"),
 }
-RELATIONS = {"==": "=", "!=": "<>"}
+RELATIONS = words("val3").pairs("relations")
 # Words of a configuration and the flag that they mean (None: as at the start).
 CONFIGURATIONS: dict[str, int | None] = {
-    **dict.fromkeys(("righty", "epositive", "wpositive"), 0),
-    **dict.fromkeys(("lefty", "enegative", "wnegative"), 1),
-    **dict.fromkeys(("sfree", "efree", "wfree", "free"), 2),
-    **dict.fromkeys(("ssame", "esame", "wsame", "same"), None),
+    **{
+        word: flag
+        for text in words("val3").pairs("configuration").values()
+        for word, flag in zip(text.split(), (0, 1, 2, None), strict=True)
+    },
+    "free": 2,
+    "same": None,
 }
 BLENDS = {"off": 0, "joint": 1, "cartesian": 2, "Cartesian": 2}
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)

@@ -9,6 +9,11 @@ from collections.abc import Mapping
 from typing import Final
 
 from rpl.passes.capabilities import Bank
+from rpl.registry import words
+from rpl.words import spelled
+
+_WORDS: Final = words("inform")
+_NUMBERS: Final = _WORDS.numbers("numbers")
 
 # M: a controller can be given more variables than it is delivered with (STANDARD_LAST).
 B: Final = Bank("B", 0, 999)
@@ -23,19 +28,17 @@ BANKS: Final[Mapping[str, Bank]] = {bank.name: bank for bank in (B, D, I, R, S, 
 NUMBERS: Final = ("B", "I", "D", "R")
 WHOLE: Final = ("B", "I", "D")
 RANGES: Final[Mapping[str, tuple[int, int]]] = {
-    "B": (0, 255),
-    "I": (-32768, 32767),
-    "D": (-(2**31), 2**31 - 1),
+    bank: (int(least), int(_WORDS.numbers("largest")[bank])) for bank, least in _WORDS.numbers("least").items()
 }
-TOOLS: Final = 63
-USER_FRAMES: Final = 63
+TOOLS: Final = int(_NUMBERS["tools"])
+USER_FRAMES: Final = int(_NUMBERS["user_frames"])
 
 COMPARISONS: Final = frozenset(("=", "<>", "<", ">", "<=", ">="))
 OPPOSITE: Final[Mapping[str, str]] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 TURNED: Final[Mapping[str, str]] = {"=": "=", "<>": "<>", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
-ARITHMETIC: Final[Mapping[str, str]] = {"+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV", "div": "DIV"}
-BITS: Final[Mapping[str, str]] = {"band": "AND", "bor": "OR", "bxor": "XOR"}
-FUNCTIONS: Final[Mapping[str, str]] = {"sin": "SIN", "cos": "COS", "atan": "ATAN", "sqrt": "SQRT"}
+ARITHMETIC: Final[Mapping[str, str]] = spelled(_WORDS.pairs("arithmetic")) | {"div": "DIV"}
+BITS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("bits"))
+FUNCTIONS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("functions"))
 TEXT_FUNCTIONS: Final[Mapping[str, str]] = {
     "text_part": "MID$",
     "text_length": "LEN",
@@ -49,15 +52,15 @@ POSITION_FUNCTIONS: Final = (
     *("current_target", "current_joints", "target_to_joints", "joints_to_target", "inverse", "compose", "pose_of"),
     *("displaced", "displaced_in_tool", "element_sum", "element_difference", "offset"),
 )
-POSE_ELEMENTS: Final = ("x", "y", "z", "c", "b", "a")
+POSE_ELEMENTS: Final = _WORDS.listed("pose_elements")
 EXTERNAL: Final = ("e1", "e2", "e3", "e4", "e5", "e6")
-JOINT_ELEMENTS: Final = ("j1", "j2", "j3", "j4", "j5", "j6")
-FLAGS: Final = ("noflip", "lower", "rear", "r180", "t180", "s180")
+JOINT_ELEMENTS: Final = _WORDS.listed("joint_elements")
+FLAGS: Final = _WORDS.listed("posture")
 
-# Elements of positions count in these parts (M: 0.0001 deg since the DX100), speeds and times in variables in these.
-MM_PER_COUNT: Final = 0.001
-DEG_PER_COUNT: Final = 0.0001
-COUNTS: Final[Mapping[str, int]] = {"V": 10, "VR": 10, "VJ": 100, "T": 100, "CR": 10}
+MM_PER_COUNT: Final = _NUMBERS["mm_per_count"]
+DEG_PER_COUNT: Final = _NUMBERS["deg_per_count"]
+# How many counts of a variable make the unit of a speed, time or blend.
+COUNTS: Final[Mapping[str, int]] = {tag: round(1 / part) for tag, part in _WORDS.numbers("variable_units").items()}
 # Least and largest value of a tag, and its decimals. M: the ranges of V and CR.
 TAGS: Final[Mapping[str, tuple[float, float, int]]] = {
     "V": (0.1, 1500.0, 1),
@@ -68,20 +71,14 @@ TAGS: Final[Mapping[str, tuple[float, float, int]]] = {
     "ACC": (20, 100, 0),
     "DEC": (20, 100, 0),
 }
-# M: distances of PL=0..8 in mm, as a controller is delivered.
-LEVELS: Final = (0.0, 12.5, 25.0, 50.0, 100.0, 200.0, 300.0, 400.0, 500.0)
-STANDARD_LEVEL: Final = 9  # stands for a move without PL
+LEVELS: Final = tuple(map(float, _WORDS.listed("levels")))  # distances of PL=0..8 in mm
+STANDARD_LEVEL: Final = int(_NUMBERS["standard_level"])
 
-MOVES: Final[Mapping[str, str]] = {"joint": "MOVJ", "linear": "MOVL", "circular": "MOVC", "spline": "MOVS"}
-SIGNALS: Final[Mapping[str, str]] = {
-    "digital_in": "IN",
-    "digital_out": "OT",
-    "analog_in": "AI",
-    "analog_out": "AO",
-}
+MOVES: Final[Mapping[str, str]] = spelled(_WORDS.pairs("moves"))
+SIGNALS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("signals"))
 # M: last numbers of the universal signals.
 LAST_SIGNAL: Final[Mapping[str, int]] = {"IN": 4096, "OT": 4096, "AI": 40, "AO": 40}
-DIRECT_INPUTS: Final = 9000  # direct inputs follow behind all others in the neutral numbering
+DIRECT_INPUTS: Final = int(_NUMBERS["direct_inputs"])
 MOST_TERMS: Final = 8  # M: comparisons in one condition
 SURE_TERMS: Final = 6  # that many fit on a line
 LONGEST_REMARK: Final = 32

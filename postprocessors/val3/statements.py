@@ -23,8 +23,6 @@ NOT_SAID = code(
     "VAL3 cannot say this: {reason}",
     "the original stands there as a comment, and the task stops for good",
 )
-_TASKS = {"stop": "taskKill", "pause": "taskSuspend", "resume": "taskResume"}
-_MESSAGES = {"write": "putln", "notify": "popUpMsg", "state": "putln", "error": "popUpMsg"}
 _PRIORITY = 10
 
 
@@ -150,8 +148,8 @@ class Statements:
             case ir.TaskControl(op="start", task=task, arguments=arguments):
                 before, given = self.arguments(task, arguments)
                 return [*before, *say("create", task=task, priority=_PRIORITY, name=task, arguments=",".join(given))]
-            case ir.TaskControl(op=op, task=task) if op in _TASKS:
-                return say("task", word=_TASKS[op], task=task)
+            case ir.TaskControl(op=op, task=task) if op in tables.TASKS:
+                return say("task", word=tables.TASKS[op], task=task)
             case ir.Return(value=None):
                 return say("leave")
             case ir.Wait(time=time, in_position=stand):
@@ -175,8 +173,8 @@ class Statements:
                 return say("halt")
             case ir.Message(kind="clear"):
                 return say("clear")
-            case ir.Message(kind=kind, text=text) if kind in _MESSAGES:
-                return say("message", word=_MESSAGES[kind], text=self.shown(text))
+            case ir.Message(kind=kind, text=text) if kind in tables.MESSAGES:
+                return say("message", word=tables.MESSAGES[kind], text=self.shown(text))
             case ir.Vendor(dialect="val3", text=text):
                 return [text]
             case ir.Opaque():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from rpl.registry import words as shared_words
+from rpl.words import spelled
 from rpl.writing.precedence import Operator, OperatorTable
 from rpl.writing.text import NumberStyle
 
@@ -53,18 +55,19 @@ OPERATORS = OperatorTable(
     mixed=(frozenset(("or", "cor", "xor", "and", "cand")), frozenset(("*", "/", "mod"))),
 )
 
+_WORDS = shared_words("val3")
 # Functions of numbers and texts that differ in the name alone.
-FUNCTIONS = {
-    "abs": "abs", "sqrt": "sqrt", "sin": "sin", "cos": "cos", "tan": "tan", "asin": "asin", "acos": "acos",
-    "atan": "atan", "exp": "exp", "log": "ln", "log10": "log", "power": "power", "min": "min", "max": "max",
-    "floor": "roundDown", "ceil": "roundUp", "text_length": "len", "from_code": "chr",
+FUNCTIONS = spelled(_WORDS.pairs("functions")) | {
+    "text_length": "len",
+    "from_code": "chr",
     "interpolate_pose": "interpolateL",
-}  # fmt: skip
-FLAGS = {
-    "shoulder": ("ssame", "righty", "lefty", "sfree"),
-    "elbow": ("esame", "epositive", "enegative", "efree"),
-    "wrist": ("wsame", "wpositive", "wnegative", "wfree"),
 }
+# Words of a configuration: as at the start, flag 0, flag 1, free.
+FLAGS = {
+    name: (shown[-1], *shown[:-1]) for name, text in _WORDS.pairs("configuration").items() for shown in (text.split(),)
+}
+TASKS = spelled(_WORDS.pairs("tasks"))
+MESSAGES = spelled(_WORDS.pairs("messages")) | {"state": "putln", "error": "popUpMsg"}
 JOINTS = ("j1", "j2", "j3", "j4", "j5", "j6")
 TYPES = {
     "IntType": "num", "RealType": "num", "BoolType": "bool", "StringType": "string", "PoseType": "trsf",
