@@ -1,4 +1,4 @@
-"""A routine that only a refused statement names is no place to start the program: nothing is prepared in it."""
+"""What is left of refused statements: one stop or remark each, and no routine that is prepared to start the program."""
 
 from __future__ import annotations
 
@@ -43,3 +43,25 @@ def test_what_a_refused_statement_would_run_is_not_started_alone(target: str, pr
     assert "interrupt-connected-anew" in {one.code.name for one in diagnostics}
     text = "\n".join(one.data.decode("latin-1") for one in done.files)
     assert "CONNECT i WITH look" in text and text.count(prepared) <= 1, text
+
+
+STOPPED = """DEF m()
+INTERRUPT DECL 10 WHEN $IN[1] DO HELD()
+INTERRUPT ON 10
+LIN {X 400}
+INTERRUPT OFF 10
+END
+DEF HELD()
+BRAKE F
+WAIT SEC 1
+END
+"""
+
+
+@pytest.mark.parametrize("target", ["vplus", "tp", "inform", "urscript"])
+def test_each_refused_statement_is_said_once(target: str) -> None:
+    read = read_sources([source_from_text("m.src", STOPPED)], "krl", Diagnostics())
+    done = translate_program(read, target, "kuka_kr6r900sixx", None, Diagnostics())
+    text = "\n".join(one.data.decode("latin-1") for one in done.files)
+    assert [text.count(word) for word in ("INTERRUPT ON 10", "INTERRUPT OFF 10", "BRAKE F")] == [1, 1, 1], text
+    assert "ControlInterrupt" not in text
