@@ -103,7 +103,7 @@ class Target:
     What its controller loads: lines of at most `longest_line` characters (0: any), text in one of the `encodings`.
     `options`: names of the target's own options and what they say; `fitted` gives the capabilities under some of them.
     `aliases`: other words for it, beside those of the dialect of its name. `passes`: rewritings that only it
-    needs, each with its place among those of the core.
+    needs, each with its place among those of the core. `rows`: can it write moves of one shape as one node (ir.Rows)?
     """
 
     name: str
@@ -116,6 +116,7 @@ class Target:
     fitted: Callable[[Mapping[str, str]], Capabilities] | None = None
     aliases: tuple[str, ...] = ()
     passes: Callable[[], tuple[Placed, ...]] = tuple
+    rows: bool = False
 
     def capabilities_under(self, options: Mapping[str, str]) -> Capabilities:
         """What the controller can say when these options are given. Raises UsageError for an option it has not."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
@@ -14,10 +14,13 @@ from rpl.emulator.model import RobotModel, load_robot
 from rpl.errors import UsageError
 from rpl.housestyle import compare_house_style
 from rpl.ir.analog import AnalogSetting
+from rpl.ir.columns import LooksInsideError, Stretch
 from rpl.passes.analog import analog_ranges
+from rpl.passes.expanded import expanded
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
 from rpl.passes.legality import report, unguarded
+from rpl.passes.stretches import settled, with_stretches
 from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
@@ -25,6 +28,8 @@ from rpl.writing.names import rename, rename_hiding, renamed_twice
 from rpl.writing.target import OutputFile, WriteContext
 
 _MOST_NAMED = 5
+# Runs whose moves are told apart, one after the other, before all are taken so.
+_MOST_ASKED = 3
 
 SAME_FILE = code(
     "same-output-file",
@@ -36,15 +41,24 @@ SAME_FILE = code(
 
 @dataclass(frozen=True, slots=True)
 class Translation:
-    """Written files, the program as it was written, names that changed, and what was lost (guarded stops). `registers`:
-    the source names of data that has numbers in the target, by (bank, number); their types beside."""
+    """Written files, the program as it was written (moves of one shape as Rows), names that changed, and what was lost
+    (guarded stops). `registers`: the source names of data that has numbers in the target, by (bank, number); their
+    types beside."""
 
     files: tuple[OutputFile, ...]
-    program: ir.Program
+    written: ir.Program
     renamed: Mapping[str, str]
     losses: tuple[Diagnostic, ...] = ()
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
     register_types: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    _whole: list[ir.Program] = field(default_factory=list, init=False, repr=False, compare=False)
+
+    @property
+    def program(self) -> ir.Program:
+        """The program as it was written, each move for itself (made when it is first asked for)."""
+        if not self._whole:
+            self._whole.append(at_any_depth(lambda: expanded(self.written)))
+        return self._whole[0]
 
     def _parts(self) -> list[str]:
         names = [file.path for file in self.files[:_MOST_NAMED]]
@@ -96,19 +110,43 @@ def translate_program(
     own = options or {}
     capabilities = registry.target(target_name).capabilities_under(own)
 
-    def translated() -> Translation:
+    languages = (*(module.dialect for module in read.reduced.modules), target_name)
+
+    def translated(program: ir.Program, stretches: tuple[Stretch, ...]) -> Translation:
         context = Context(source, target_name, capabilities, collector, first, second)
         context.registers = registers or {}
-        languages = (*(module.dialect for module in read.program.modules), target_name)
-        context.analog = {one: analog_ranges(read.program, one, analog) for one in dict.fromkeys(languages)}
-        whole = with_given(read.program, given) if given and source != target_name else read.program
-        return _translated(whole, context, second, own, templates or {})
+        context.analog = {one: analog_ranges(program, one, analog) for one in dict.fromkeys(languages)}
+        whole = with_given(program, given) if given and source != target_name else program
+        return _translated(whole, stretches, context, second, own, templates or {})
 
-    return at_any_depth(translated, collector)
+    if source == target_name:
+        return at_any_depth(lambda: translated(read.program, ()), collector)
+    return at_any_depth(lambda: _by_stretches(read.reduced, translated, collector), collector)
+
+
+def _by_stretches(
+    program: ir.Program,
+    translated: Callable[[ir.Program, tuple[Stretch, ...]], Translation],
+    diagnostics: Diagnostics,
+) -> Translation:
+    """The translation with the runs of the program by stretches; those runs whose moves something tells apart, by
+    moves."""
+    before = len(diagnostics)
+    one_by_one: set[ir.Run] = set()
+    while True:
+        whole, stretches = with_stretches(program, one_by_one)
+        try:
+            return translated(whole, stretches)
+        except LooksInsideError as asked:
+            one_by_one.add(asked.stretch.run)
+            del diagnostics.items[before:]
+        if len(one_by_one) >= _MOST_ASKED:
+            return translated(expanded(program), ())
 
 
 def _translated(
     whole: ir.Program,
+    stretches: tuple[Stretch, ...],
     context: Context,
     robot: RobotModel | None,
     options: Mapping[str, str],
@@ -122,6 +160,8 @@ def _translated(
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
         program, legal = rename(legalise(whole, context, target.passes()), capabilities.names)
+        program = settled(program, stretches, collector.items[before:])
+        program = program if target.rows else expanded(program)
         renamed = renamed_twice(hiding, legal)
     else:
         program = legalise(whole, context)

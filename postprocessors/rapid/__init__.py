@@ -31,4 +31,5 @@ TARGET = Target(
     _write,
     options={"header": "yes: begin each module with the load header of program files"},
     encodings=("latin-1", "utf-8"),
+    rows=True,
 )

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import operator
 import re
 from collections.abc import Sequence
 
 from rpl import ir
+from rpl.ir.columns import as_float, column_of
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names, word_type
 from rpl.passes.typing import type_of
 from rpl.writing.precedence import ExpressionPrinter, Printed
+from rpl.writing.rows import mark_of
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import NumberStyle, number_text
 
@@ -329,15 +332,19 @@ class Expressions:
         table = {"speed": SPEED_NAMES, "zone": ZONE_NAMES}.get(expression.type_name or "")
         if table is None:
             return None
-        numbers = tuple(map(number_of, values))
-        return table.get(tuple(number for number in numbers if number is not None)) if None not in numbers else None
+        numbers = [number_of(value) for value in values]
+        known = tuple(number for number in numbers if number is not None)
+        if any(map(column_of, known)):  # compared one after the other, so that not all have to be looked into
+            found = (name for given, name in table.items() if all(map(operator.eq, given, known)))
+            return next(found, None)
+        return table.get(known) if len(known) == len(numbers) else None
 
 
 def number_of(value: ir.Expression) -> float | None:
     """The number of a literal (a BOOL counts 0 or 1)."""
     match value:
         case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
-            return float(number)
+            return as_float(number)
         case ir.BoolLiteral(value=truth):
             return float(truth)
         case ir.Quantity(value=inner, unit=unit):
@@ -383,22 +390,33 @@ def missing(type: ir.Type, name: str) -> str:
 
 
 def integer(literal: ir.IntLiteral) -> str:
-    return literal.spelling if _INT.fullmatch(literal.spelling) else str(literal.value)
+    if _INT.fullmatch(literal.spelling):
+        return literal.spelling
+    return mark_of(literal) or str(literal.value)
 
 
 def real(literal: ir.RealLiteral) -> str:
     """The number as it was spelled when that is RAPID, else with nine significant digits."""
-    spelling = literal.spelling
-    if _REAL.fullmatch(spelling) and float(spelling) == literal.value:
+    return mark_of(literal) or number(literal.value, literal.spelling)
+
+
+def number(value: float, spelling: str) -> str:
+    """A number as `real` and `integer` write it."""
+    if isinstance(value, int):
+        return integer(ir.IntLiteral(value, spelling))
+    if _REAL.fullmatch(spelling) and float(spelling) == value:
         return spelling
-    return rounded(literal.value)
+    return rounded(value)
 
 
 def rounded(value: float) -> str:
     """A computed number: nine significant digits, more than a num holds."""
     if abs(value) >= 9e9:
         return UNSET_AXIS if value == 9e9 else number_text(value, style=_STYLE)
-    return number_text(float(f"{value:.{_SIGNIFICANT}g}"), style=_STYLE)
+    text = f"{value:.{_SIGNIFICANT}g}"
+    if "e" not in text and abs(value) >= _STYLE.smallest_plain:  # what is made of it below, and far quicker
+        return text
+    return number_text(float(text), style=_STYLE)
 
 
 def text_literal(value: str) -> str:

@@ -9,11 +9,12 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.refusals import refusal
+from rpl.writing.rows import lines_of_rows
 from rpl.writing.statements import CannotSayError
 from rpl.writing.templates import Macros, TemplateError
 
 from . import motion
-from .expressions import Expressions
+from .expressions import Expressions, number
 from .instructions import Instructions
 
 NOT_SAID = code(
@@ -91,6 +92,10 @@ class Statements:
         return lines
 
     def statement(self, statement: ir.Statement) -> list[str]:
+        if isinstance(statement, ir.Rows):
+            self.ledger.written(statement)
+            quiet = Statements(self.expressions, self.diagnostics, EmissionLedger(), self.layout)
+            return lines_of_rows(statement, quiet.statement, number)
         try:
             lines = self.lines(statement)
         except CannotSayError as reason:

@@ -81,6 +81,7 @@ from rpl.ir.motion import (
     Spline,
     Trigger,
 )
+from rpl.ir.rows import Rows
 from rpl.ir.runs import Columns, Run
 from rpl.ir.statements import (
     Body,
@@ -256,6 +257,7 @@ __all__ = [
     "Return",
     "RotationType",
     "Routine",
+    "Rows",
     "Run",
     "SCOPES",
     "SIGNAL_KINDS",

@@ -107,13 +107,13 @@ class Run:
         whole = [(at in columns.mixed) == _is_real(cell) for at, cell in enumerate(columns.cells)]
         return tuple(literal("1" if one else "1.5") for one in whole)
 
-    def with_cells(self, cells: tuple[Expression, ...]) -> Move:
-        """The sample with other expressions in place of its numbers."""
+    def with_cells(self, cells: tuple[Expression, ...], origin: Origin | None = None) -> Move:
+        """The sample with other expressions in place of its numbers, at that place (its own without one)."""
         other: dict[int, Make[Spellings]] = {
-            id(old): _same(new) for old, new in zip(self.columns.cells, cells, strict=True)
+            id(old): always(new) for old, new in zip(self.columns.cells, cells, strict=True)
         }
         made = maker_of(self.sample, other, self.sample.origin)
-        return cast(Move, made((), self.sample.origin)) if made is not None else self.sample
+        return cast(Move, made((), origin or self.sample.origin)) if made is not None else self.sample
 
 
 def _is_real(cell: Expression) -> bool:
@@ -159,7 +159,8 @@ def maker_of(node: object, cells: Mapping[int, Make[Row]], origin: Origin) -> Ma
     return build
 
 
-def _same(node: object) -> Make[Row]:
+def always(node: object) -> Make[Row]:
+    """The same in each move."""
     return lambda row, origin: node
 
 
@@ -177,7 +178,7 @@ def _maker_of_tuple(node: tuple[object, ...], cells: Mapping[int, Make[Row]], or
     parts = [maker_of(part, cells, origin) for part in node]
     if not any(parts):
         return None
-    made = tuple((make or _same(part)) for make, part in zip(parts, node, strict=True))
+    made = tuple((make or always(part)) for make, part in zip(parts, node, strict=True))
     return lambda row, there: tuple([make(row, there) for make in made])
 
 
@@ -192,3 +193,14 @@ def below(node: object) -> Iterator[object]:
         yield one
         if is_dataclass(one) and not isinstance(one, Origin | type):
             stack.extend(getattr(one, each.name) for each in fields(one))
+
+
+def identical(one: object, other: object) -> bool:
+    """Equal to the spelling, the place and the sign of a zero, which comparing nodes leaves out."""
+    if one.__class__ is not other.__class__:
+        return False
+    if isinstance(one, tuple) and isinstance(other, tuple):
+        return len(one) == len(other) and all(map(identical, one, other))
+    if is_dataclass(one) and not isinstance(one, Source):
+        return all(identical(getattr(one, each.name), getattr(other, each.name)) for each in fields(one))
+    return one is other or (one == other and (one != 0 or str(one) == str(other)))

@@ -14,6 +14,7 @@ from rpl.ir.motion import (
     Spline,
     Trigger,
 )
+from rpl.ir.rows import Rows
 from rpl.ir.runs import Run
 from rpl.source import NOWHERE, Origin
 
@@ -446,5 +447,6 @@ Statement = (
     | PathRule
     | DefineTrigger
     | Run
+    | Rows
 )
 Body = tuple[Statement, ...]

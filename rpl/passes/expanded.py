@@ -27,11 +27,11 @@ def _routine(routine: ir.Routine) -> ir.Routine:
 
 def spread(body: ir.Body) -> ir.Body:
     """A body with its runs, and those of the bodies in it, spread out."""
-    if not any(isinstance(one, ir.Run) for one in body):
+    if not any(isinstance(one, ir.Run | ir.Rows) for one in body):
         return each(body, _statement)
     done: list[ir.Statement] = []
     for one in body:
-        done.extend(one.moves() if isinstance(one, ir.Run) else (_statement(one),))
+        done.extend(one.moves() if isinstance(one, ir.Run | ir.Rows) else (_statement(one),))
     return tuple(done)
 
 

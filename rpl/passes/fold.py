@@ -14,6 +14,7 @@ from functools import cache
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
+from rpl.ir.columns import as_float, by_row
 from rpl.passes import rigid
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -71,7 +72,7 @@ def lasting(expression: ir.Expression, scope: Scope) -> Value | None:
 def lasting_number(expression: ir.Expression, scope: Scope) -> float | None:
     """The lasting value when it is a number."""
     value = lasting(expression, scope)
-    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
+    return as_float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
 def is_taught_type(type: ir.Type, scope: Scope) -> bool:
@@ -90,7 +91,7 @@ def element_key(name: str, places: Sequence[int]) -> str:
 def constant_number(expression: ir.Expression, scope: Scope, unchanged: Unchanged | None = None) -> float | None:
     """The value when it is a number."""
     value = constant(expression, scope, unchanged)
-    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
+    return as_float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
 @cache
@@ -287,7 +288,7 @@ def _times(value: ir.Expression, factor: float) -> ir.Expression:
         return value
     match value:
         case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
-            return ir.RealLiteral(float(f"{number * factor:.12g}"), origin=value.origin)
+            return ir.RealLiteral(_rounded(number * factor), origin=value.origin)
         case ir.Unary(op="-", operand=operand):
             return replace(value, operand=_times(operand, factor))
         case ir.Binary(op="*" | "/" as op, left=left, right=ir.RealLiteral(value=number)):
@@ -297,6 +298,11 @@ def _times(value: ir.Expression, factor: float) -> ir.Expression:
     if factor < 1.0 and math.isclose(1.0 / factor, round(1.0 / factor), rel_tol=1e-12):
         return ir.Binary("/", value, ir.RealLiteral(float(round(1.0 / factor))), origin=value.origin)
     return ir.Binary("*", value, ir.RealLiteral(float(f"{factor:.15g}")), origin=value.origin)
+
+
+@by_row
+def _rounded(value: float) -> float:
+    return float(f"{value:.12g}")
 
 
 def _without_neutral(expression: ir.Expression, scope: Scope) -> ir.Expression:

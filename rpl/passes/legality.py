@@ -59,6 +59,8 @@ def illegal(program: ir.Program, can: Capabilities) -> Iterator[Illegal]:
 def kind_of(node: object, can: Capabilities) -> str:
     """The kind of a node that the tables do not have, empty where they have it."""
     match node:
+        case ir.Rows():
+            return ""  # its move is looked at
         case ir.System(name=name) if _of_record(name, can):
             return ""
         case ir.Trigger() if TriggerRule.OF_MOVES in can.motion.triggers or "DefineTrigger" in can.statements:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+from rpl.ir.columns import by_row
+
 Triple = tuple[float, float, float]
 Quadruple = tuple[float, float, float, float]
 # Below this cosine of b the first and last angle turn about the same axis.
@@ -43,7 +45,7 @@ class Vector:
 
     @property
     def length(self) -> float:
-        return math.sqrt(self.dot(self))
+        return _root(self.dot(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,8 +73,7 @@ class Rotation:
     @property
     def angle(self) -> float:
         """By how much it turns, degrees in 0..180; exact for small turns too."""
-        w, *rest = self.quaternion
-        return math.degrees(2.0 * math.atan2(math.hypot(*rest), abs(w)))
+        return _turn(self.quaternion)
 
     def turn(self, vector: Vector) -> Vector:
         """The vector turned by this rotation."""
@@ -122,11 +123,14 @@ IDENTITY = Pose(Vector(0.0, 0.0, 0.0), NO_TURN)
 
 def rotation_of_quaternion(w: float, x: float, y: float, z: float) -> Rotation | None:
     """The rotation of a quaternion of any length; None for one of length zero."""
-    length = math.sqrt(w * w + x * x + y * y + z * z)
-    if length < 1e-12:
-        return None
-    w, x, y, z = (0.0 if abs(part) < NOISE * length else part / length for part in (w, x, y, z))
-    return Rotation((w, x, y, z))
+    length = _root(w * w + x * x + y * y + z * z)
+    return None if length < 1e-12 else Rotation(_of_length_one((w, x, y, z), length))
+
+
+@by_row
+def _of_length_one(quaternion: Quadruple, length: float) -> Quadruple:
+    w, x, y, z = (0.0 if abs(part) < NOISE * length else part / length for part in quaternion)
+    return w, x, y, z
 
 
 def rotation_of_zyx(a: float, b: float, c: float) -> Rotation:
@@ -163,6 +167,7 @@ def pose_of_matrix(matrix: list[list[float]]) -> Pose:
     return Pose(Vector(m[0][3], m[1][3], m[2][3]), rotation_of_rows(rows))
 
 
+@by_row
 def quaternion_to_zyx(quaternion: Quadruple) -> Triple:
     """Angles (a, b, c) in degrees, a and c in (-180, 180]. At b = ±90: c = 0, all in a."""
     (xx, xy, xz), (yx, yy, yz), (zx, _, _) = Rotation(quaternion).rows
@@ -176,11 +181,13 @@ def quaternion_to_zyx(quaternion: Quadruple) -> Triple:
     return clean(_half_open(math.degrees(a))), clean(math.degrees(b)), clean(_half_open(math.degrees(c)))
 
 
+@by_row
 def angle_of(sine: float, cosine: float) -> float:
     """The angle in (-180, 180] degrees of a sine and a cosine times one length, without noise in its last places."""
     return clean(_half_open(math.degrees(math.atan2(sine, cosine))))
 
 
+@by_row
 def clean(value: float) -> float:
     """The value without the noise of the last binary places, and never a negative zero."""
     rounded = float(f"{value:.12g}")
@@ -199,6 +206,7 @@ def multiply(p: Quadruple, q: Quadruple) -> Quadruple:
     )
 
 
+@by_row
 def _about(axis: int, degrees: float) -> Quadruple:
     half = math.fmod(degrees, 720.0) / 2
     sine, cosine = _exact_sine(half), _exact_sine(half + 90.0)
@@ -214,6 +222,18 @@ def _exact_sine(degrees: float) -> float:
     return math.sin(math.radians(degrees))
 
 
+@by_row
+def _turn(quaternion: Quadruple) -> float:
+    w, *rest = quaternion
+    return math.degrees(2.0 * math.atan2(math.hypot(*rest), abs(w)))
+
+
+@by_row
+def _root(square: float) -> float:
+    return math.sqrt(square)
+
+
+@by_row
 def _unit(q: Quadruple) -> Quadruple:
     """Unit length, w >= 0, and the first component that is not zero positive when w is. What rounding leaves of a zero
     is zero, so that it chooses no sign."""

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from rpl import ir, registry
+from rpl.ir.columns import as_float, by_row
 from rpl.passes import rigid
 from rpl.passes.numeric import NUMERIC, round_half_away
 from rpl.passes.typewords import type_word
@@ -82,14 +83,14 @@ def composed(type: ir.Type, parts: dict[str, Value]) -> Value | None:
                 type,
                 pose,
                 tuple((name, int(v)) for name, v in flags.items() if isinstance(v, int | float)),
-                tuple((name, float(v)) for name, v in external.items() if isinstance(v, int | float)),
+                tuple((name, as_float(v)) for name, v in external.items() if isinstance(v, int | float)),
             )
     return Record(type, tuple(parts.items()))
 
 
 def _numbers(parts: dict[str, Value], names: tuple[str, ...]) -> list[float] | None:
     values = [parts.get(name) for name in names]
-    found = [float(value) for value in values if isinstance(value, int | float)]
+    found = [as_float(value) for value in values if isinstance(value, int | float)]
     return found if len(found) == len(names) else None
 
 
@@ -145,7 +146,12 @@ def component(value: Value, name: str) -> Value | None:
 def scaled(value: Value | None, factor: float) -> Value | None:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
-    return value if factor == 1.0 else float(f"{value * factor:.15g}")
+    return value if factor == 1.0 else _rounded(value * factor)
+
+
+@by_row
+def _rounded(value: float) -> float:
+    return float(f"{value:.15g}")
 
 
 def unary(op: str, value: Value | None) -> Value | None:
@@ -166,7 +172,7 @@ def unary(op: str, value: Value | None) -> Value | None:
 def converted(how: str, value: Value | None) -> Value | None:
     match how, value:
         case "real", int() | float():
-            return float(value)
+            return as_float(value)
         case "round_half_away", int() | float():
             return round_half_away(float(value))
         case "trunc", int() | float():

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.ir.runs import CELL
-from rpl.reading.alike import identical, quietly
+from rpl.ir.runs import CELL, identical
+from rpl.reading.alike import quietly
 from rpl.reading.shapes import ShapeParser, SyntaxTree
 from rpl.source import Origin, Source
 

@@ -15,8 +15,8 @@ from string import ascii_letters
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.ir.runs import Make, below, literal, maker_of
-from rpl.reading.alike import identical, quietly
+from rpl.ir.runs import Make, below, identical, literal, maker_of
+from rpl.reading.alike import quietly
 from rpl.reading.pieces import Element
 from rpl.reading.shapes import ShapeParser, SyntaxTree
 from rpl.source import NOWHERE, Origin

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.columns import as_float
 from rpl.passes import rigid
 from rpl.passes.fold import lasting, literal, real
 from rpl.passes.legalise.context import Context
@@ -285,7 +286,7 @@ class _ToQuaternions(WantedRewriter):
             return self.expression(given["rot"])
         angles = tuple(given.get(name) or ir.IntLiteral(0) for name in _ANGLES)
         values = [lasting(angle, self.scope) for angle in angles]
-        numbers = [float(value) for value in values if isinstance(value, int | float)]
+        numbers = [as_float(value) for value in values if isinstance(value, int | float)]
         if len(numbers) < 3:
             return ir.Builtin("rotation_zyx", tuple(map(self.expression, angles)))
         rotation = rigid.rotation_of_zyx(*numbers)

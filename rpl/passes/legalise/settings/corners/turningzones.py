@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.columns import Stretch, by_row, chosen, column_of, in_next_row, in_row
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
@@ -57,7 +58,7 @@ def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
             size = float(f"{size:.6g}")
             context.diagnostics.report(REDUCED, zone.move.origin, path=zone.path, size=size)
             return replace(zone.blend, distance=ir.RealLiteral(size))
-        turn = max((leg.turn for leg in beside), default=0.0)
+        turn = max((leg.turn for leg in beside if leg.way > _NO_WAY), default=0.0)
         if size > zone.path + 1e-6 and turn > _TOLD_TURN and not told:
             told.add("extended")
             context.diagnostics.report(EXTENDED, zone.move.origin, extended=float(f"{size:.6g}"), path=zone.path)
@@ -75,18 +76,39 @@ def full_zones(program: ir.Program, context: Context) -> ir.Program:
     """For targets with zones: zones made of corners that have their size whatever the tool does keep it."""
 
     def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
-        needed = max((min(zone.path / leg.way, 0.5) * leg.turn for leg in beside if leg.turn > _NO_TURN), default=0.0)
         value = zone.blend.zone
-        if needed <= zone.rotation + _ROUNDING or not isinstance(value, ir.Aggregate):
+        old = dict(value.entries) if isinstance(value, ir.Aggregate) else {}
+        if not isinstance(value, ir.Aggregate) or not {"path", "rotation", "rotation_path"} <= old.keys():
             return zone.blend
+        needed = _needed(zone.path, tuple(leg.way for leg in beside), tuple(leg.turn for leg in beside))
+        larger = _exceeds(needed, zone.rotation)
         new: dict[str | None, ir.Expression] = {
-            "rotation": ir.RealLiteral(math.ceil(needed * 1000.0 - _ROUNDING) / 1000.0)
+            "rotation": chosen(larger, ir.RealLiteral(_upwards(needed)), old["rotation"]),
+            "rotation_path": chosen(larger, old["path"], old["rotation_path"]),
         }
-        new["rotation_path"] = dict(value.entries)["path"]
+        if all(new[name] is old[name] for name in new):
+            return zone.blend
         entries = tuple((name, new.get(name, part)) for name, part in value.entries)
         return replace(zone.blend, zone=replace(value, entries=entries))
 
     return _rewritten(program, change)
+
+
+@by_row
+def _needed(path: float, ways: tuple[float, ...], turns: tuple[float, ...]) -> float:
+    """The angle by which the tool turns in the corner."""
+    legs = zip(ways, turns, strict=True)
+    return max((min(path / way, 0.5) * turn for way, turn in legs if way > _NO_WAY and turn > _NO_TURN), default=0.0)
+
+
+@by_row
+def _exceeds(angle: float, limit: float) -> float:
+    return float(angle > limit + _ROUNDING)
+
+
+@by_row
+def _upwards(angle: float) -> float:
+    return math.ceil(angle * 1000.0 - _ROUNDING) / 1000.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +131,7 @@ class _Leg:
 
     def limits(self, zone: _Zone) -> list[float]:
         """The sizes (mm) to which the turn reduces a zone."""
-        if self.turn <= _NO_TURN:
+        if self.turn <= _NO_TURN or self.way <= _NO_WAY:
             return []
         by_angle = [zone.rotation / self.turn * self.way] if zone.rotation > 0.0 else []
         return [max(zone.rotation_path, zone.path), *by_angle]
@@ -125,8 +147,39 @@ def _rewritten(program: ir.Program, change: _Change) -> ir.Program:
 
 @dataclass(frozen=True, slots=True)
 class _Place:
+    """Where a move goes; for a stretch of a run (`stretch`) where each of its moves goes."""
+
     pose: rigid.Pose
     frames: tuple[object, object]
+
+    @property
+    def stretch(self) -> Stretch | None:
+        return next((one.stretch for one in map(column_of, self.numbers()) if one is not None), None)
+
+    def numbers(self) -> tuple[float, ...]:
+        at = self.pose.position
+        return at.x, at.y, at.z, *self.pose.rotation.quaternion
+
+    def changed(self, change: Callable[[float], float]) -> _Place:
+        x, y, z, *quaternion = map(change, self.numbers())
+        a, b, c, d = quaternion
+        return replace(self, pose=rigid.Pose(rigid.Vector(x, y, z), rigid.Rotation((a, b, c, d))))
+
+    def in_row(self, at: int) -> _Place:
+        return self.changed(lambda number: in_row(number, at))
+
+    def in_next_row(self, step: int) -> _Place:
+        return self.changed(lambda number: in_next_row(number, step))
+
+
+@dataclass(frozen=True, slots=True)
+class _Open:
+    """A move with a zone, of which the way behind it is not known yet. leg: the way to it."""
+
+    index: int
+    zone: _Zone
+    leg: _Leg | None
+    place: _Place | None
 
 
 class _Bodies:
@@ -136,30 +189,35 @@ class _Bodies:
     def body(self, body: ir.Body) -> ir.Body:
         done = list(body)
         before: _Place | None = None
-        open: tuple[int, _Zone, list[_Leg], _Place | None] | None = None
+        open: _Open | None = None
         for index, statement in enumerate(body):
             if isinstance(statement, ir.Move):
                 place = self.place(statement)
-                leg = _leg(before, place) if statement.kind != "circular" else None
+                stretch = None if place is None else place.stretch
+                first = place if place is None or stretch is None else place.in_row(stretch.first)
                 if open is not None:
-                    self.close(done, open[:3], leg)
+                    self.close(done, open, _leg(before, first) if statement.kind != "circular" else None)
+                if place is not None and stretch is not None:
+                    before = place.in_next_row(-1)
+                leg = _leg(before, place) if statement.kind != "circular" else None
                 zone = self.zone(statement)
-                open = (index, zone, [leg] if leg is not None else [], place) if zone is not None else None
-                before = place
+                open = _Open(index, zone, leg, place) if zone is not None else None
+                before = place if place is None or stretch is None else place.in_row(stretch.end - 1)
             elif not isinstance(statement, ir.Nothing | ir.Trigger | ir.LookAhead | ir.Assign | ir.Pulse):
                 if open is not None:
-                    self.close(done, open[:3], None)
+                    self.close(done, open, None)
                 before, open = None, None
                 done[index] = inside(statement, self.body)
         if open is not None:
-            self.close(done, open[:3], None)
+            self.close(done, open, None)
         return body if all(new is old for new, old in zip(done, body, strict=True)) else tuple(done)
 
-    def close(self, done: list[ir.Statement], open: tuple[int, _Zone, list[_Leg]], leg: _Leg | None) -> None:
-        index, zone, beside = open
-        blend = self.change(zone, [*beside, leg] if leg is not None else beside)
-        if blend is not zone.blend:
-            done[index] = replace(zone.move, blend=blend)
+    def close(self, done: list[ir.Statement], open: _Open, leg: _Leg | None) -> None:
+        if leg is not None and open.place is not None and open.place.stretch is not None:
+            leg = _leg(open.place, open.place.in_next_row(1))
+        blend = self.change(open.zone, [one for one in (open.leg, leg) if one is not None])
+        if blend is not open.zone.blend:
+            done[open.index] = replace(open.zone.move, blend=blend)
 
     def place(self, move: ir.Move) -> _Place | None:
         if move.relative is not None:
@@ -185,7 +243,7 @@ def _leg(start: _Place | None, end: _Place | None) -> _Leg | None:
         return None
     way = end.pose.position.plus(start.pose.position, -1.0).length
     turn = start.pose.rotation.inverse.then(end.pose.rotation).angle
-    return _Leg(way, turn) if way > _NO_WAY else None
+    return _Leg(way, turn)
 
 
 __all__ = ["full_zones", "reduced_zones"]

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.columns import as_float
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import PlaceRule, Rotation
 from rpl.passes.legalise.context import Context
@@ -65,7 +66,7 @@ def _number(value: ir.Expression) -> float | None:
         case ir.Quantity(value=inner):
             return _number(inner)
         case ir.IntLiteral(value=known) | ir.RealLiteral(value=known):
-            return float(known)
+            return as_float(known)
     return None
 
 

@@ -1,0 +1,313 @@
+"""Numbers of many moves in one: what stands in the literals of a move that stands for a stretch of a run.
+
+A column number is calculated with like a number, row by row, and gives the same bits: the same operations on the same
+doubles. Asked something that not all rows answer alike, or for its value, it raises LooksInsideError, and whoever began
+this goes on with the moves one by one. It says of itself that it is a float, so that no branch is taken otherwise than
+for a float; but it is none, so that no function in C reads a value that it has not.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterable, Iterator
+from functools import wraps
+from typing import TYPE_CHECKING, TypeVar, TypeVarTuple, cast
+
+from rpl.ir.expressions import Expression, IntLiteral, RealLiteral
+from rpl.source import Origin
+
+if TYPE_CHECKING:  # who reads no long program does not wait for it
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from rpl.ir.runs import Run
+
+# What the spellings of numbers in a stretch begin with, and then its number: of a column of the source that nothing has
+# changed (who takes the spelling along takes that column), of a choice.
+KEPT, CHOSEN = "\0", "\1"
+
+_T = TypeVarTuple("_T")
+_R = TypeVar("_R")
+
+
+class Stretch:
+    """Moves first..end-1 of a run, for which one move stands. No node: a walk passes it by."""
+
+    __slots__ = ("choices", "end", "first", "ordinary", "origin", "run", "spellings")
+
+    def __init__(
+        self, run: Run, first: int, end: int, ordinary: tuple[int, ...], spellings: list[tuple[str, ...]]
+    ) -> None:
+        """ordinary: moves of the run for which no stretch stands. spellings: of the numbers of each move of the run."""
+        columns = run.columns
+        self.run, self.first, self.end, self.ordinary, self.spellings = run, first, end, ordinary, spellings
+        self.choices: list[Choice] = []
+        self.origin = Origin(columns.source, int(columns.starts[first]), int(columns.ends[end - 1]))
+
+
+class Choice:
+    """A number that is written in two ways: in some moves as one literal, in the others as the other one."""
+
+    __slots__ = ("answers", "no", "yes")
+
+    def __init__(self, answers: NDArray[np.bool_], yes: Expression, no: Expression) -> None:
+        self.answers, self.yes, self.no = answers, yes, no
+
+
+class LooksInsideError(Exception):
+    """A question that the rows of a stretch do not answer alike."""
+
+    def __init__(self, stretch: Stretch) -> None:
+        super().__init__("the moves of a run are told apart")
+        self.stretch = stretch
+
+
+class ColumnNumber:
+    """A number for each move of the run that `stretch` is of: those outside of the stretch answer questions too. kind:
+    what it says that it is, float or int (of which only the value as a float can be taken)."""
+
+    __slots__ = ("kind", "stretch", "values")
+
+    def __init__(self, stretch: Stretch, values: NDArray[np.float64], kind: type = float) -> None:
+        self.stretch, self.values, self.kind = stretch, values, kind
+
+    def __getattribute__(self, name: str) -> object:
+        return object.__getattribute__(self, "kind" if name == "__class__" else name)
+
+    # ---- arithmetic
+
+    def _with(self, other: object, calculate: Callable[[object, object], object]) -> float:
+        import numpy as np
+
+        if self._whole(other):
+            raise LooksInsideError(self.stretch)
+        with np.errstate(all="ignore"):
+            return _number(self.stretch, np.asarray(calculate(self.values, self._operand(other)), dtype=np.float64))
+
+    def _operand(self, other: object) -> float | NDArray[np.float64]:
+        if type(other) is ColumnNumber and other.stretch is self.stretch:
+            return other.values
+        if type(other) is float or type(other) is int:
+            return float(other)
+        raise LooksInsideError(self.stretch)
+
+    def _whole(self, other: object) -> bool:
+        """Are both whole numbers, whose sums no double may hold?"""
+        return self.kind is int and other.__class__ is int
+
+    def __add__(self, other: object) -> float:
+        return self._with(other, operator.add)
+
+    def __radd__(self, other: object) -> float:
+        return self._with(other, lambda one, given: operator.add(given, one))
+
+    def __sub__(self, other: object) -> float:
+        return self._with(other, operator.sub)
+
+    def __rsub__(self, other: object) -> float:
+        return self._with(other, lambda one, given: operator.sub(given, one))
+
+    def __mul__(self, other: object) -> float:
+        return self._with(other, operator.mul)
+
+    def __rmul__(self, other: object) -> float:
+        return self._with(other, lambda one, given: operator.mul(given, one))
+
+    def __truediv__(self, other: object) -> float:
+        divisor = self._operand(other)
+        if not (divisor if isinstance(divisor, float) else divisor.all()):
+            raise LooksInsideError(self.stretch)
+        return self._with(other, operator.truediv)
+
+    def __rtruediv__(self, other: object) -> float:
+        if not self.values.all():
+            raise LooksInsideError(self.stretch)
+        return self._with(other, lambda one, given: operator.truediv(given, one))
+
+    def __neg__(self) -> float:
+        # A whole number has no negative zero.
+        return _number(self.stretch, 0.0 - self.values if self.kind is int else -self.values, self.kind)
+
+    def __pos__(self) -> float:
+        return cast(float, self)
+
+    def __abs__(self) -> float:
+        return _number(self.stretch, abs(self.values), self.kind)
+
+    # ---- questions
+
+    def _alike(self, answers: NDArray[np.bool_]) -> bool:
+        first = bool(answers[0])
+        if (answers != first).any():
+            raise LooksInsideError(self.stretch)
+        return first
+
+    def __eq__(self, other: object) -> bool:
+        if other is None or isinstance(other, str | tuple):
+            return False
+        return other is self or self._alike(self.values == self._operand(other))
+
+    def __lt__(self, other: object) -> bool:
+        return self._alike(self.values < self._operand(other))
+
+    def __le__(self, other: object) -> bool:
+        return self._alike(self.values <= self._operand(other))
+
+    def __gt__(self, other: object) -> bool:
+        return self._alike(self.values > self._operand(other))
+
+    def __ge__(self, other: object) -> bool:
+        return self._alike(self.values >= self._operand(other))
+
+    def __bool__(self) -> bool:
+        return self._alike(self.values != 0.0)
+
+    def _value(self) -> float:
+        """What all rows have, to the sign of a zero."""
+        first = self.values[0]
+        if (self.values != first).any() or (first == 0.0 and self._signs_differ()):
+            raise LooksInsideError(self.stretch)
+        return float(first)
+
+    def _signs_differ(self) -> bool:
+        import numpy as np
+
+        signs = np.signbit(self.values)
+        return bool((signs != signs[0]).any())
+
+    def __hash__(self) -> int:
+        return hash(self._value())
+
+    def __float__(self) -> float:
+        return self._value()
+
+    def __int__(self) -> int:
+        return int(self._value())
+
+    def __trunc__(self) -> int:
+        return int(self._value())
+
+    def __round__(self, digits: int | None = None) -> float:
+        return round(self._value(), digits)
+
+    def __format__(self, form: str) -> str:
+        return format(self._value(), form)
+
+    def __str__(self) -> str:
+        return str(self._value())
+
+    def __repr__(self) -> str:
+        return repr(self._value())
+
+    def __reduce__(self) -> str:
+        raise LooksInsideError(self.stretch)
+
+    def _refused(self, *_: object) -> float:
+        raise LooksInsideError(self.stretch)
+
+    __floordiv__ = __rfloordiv__ = __mod__ = __rmod__ = __divmod__ = __rdivmod__ = __pow__ = __rpow__ = _refused
+    __floor__ = __ceil__ = __index__ = is_integer = as_integer_ratio = hex = _refused
+    __copy__ = __deepcopy__ = __getstate__ = _refused
+
+
+def _number(stretch: Stretch, values: NDArray[np.float64], kind: type = float) -> float:
+    return cast(float, ColumnNumber(stretch, values, kind))
+
+
+def column_of(value: object) -> ColumnNumber | None:
+    """The column number that a value is, whatever it says of itself."""
+    return value if type(value) is ColumnNumber else None
+
+
+def as_float(value: float) -> float:
+    """float(value), of a column number too."""
+    column = column_of(value)
+    return float(value) if column is None else _number(column.stretch, column.values)
+
+
+def in_row(value: float, at: int) -> float:
+    """The number in one move of the run."""
+    column = column_of(value)
+    return value if column is None else column.kind(column.values[at])
+
+
+def in_next_row(value: float, step: int) -> float:
+    """The number of the next move (1) or the one before (-1) in each; at the end of the run that of the other side,
+    from where the way is as long."""
+    import numpy as np
+
+    column = column_of(value)
+    if column is None:
+        return value
+    numbers = np.roll(column.values, -step)
+    end = -1 if step > 0 else 0
+    numbers[end] = column.values[end - step]
+    return _number(column.stretch, numbers, column.kind)
+
+
+def chosen(answer: float, yes: Expression, no: Expression) -> Expression:
+    """The one number where the answer is not zero, else the other one; in a column for each row."""
+    column = column_of(answer)
+    if column is None:
+        return yes if answer else no
+    answers = column.values != 0.0
+    if answers.all() or not answers.any():
+        return yes if answers[0] else no
+    one, other = (_values(each, column.stretch) for each in (yes, no))
+    column.stretch.choices.append(Choice(answers, yes, no))
+    import numpy as np
+
+    number = _number(column.stretch, np.where(answers, one, other))
+    return RealLiteral(number, f"{CHOSEN}{len(column.stretch.choices) - 1}")
+
+
+def _values(expression: Expression, stretch: Stretch) -> float | NDArray[np.float64]:
+    if not isinstance(expression, IntLiteral | RealLiteral):
+        raise LooksInsideError(stretch)
+    column = column_of(expression.value)
+    return float(expression.value) if column is None else column.values
+
+
+def by_row(function: Callable[[*_T], _R]) -> Callable[[*_T], _R]:
+    """The function of numbers, and of tuples of numbers, for column numbers too: calculated for each row, so that each
+    has the very bits that it has alone. What it gives are numbers, or tuples of as many numbers for each row."""
+
+    @wraps(function)
+    def lifted(*arguments: *_T) -> _R:
+        stretch = next((one.stretch for one in map(column_of, _flat(arguments)) if one is not None), None)
+        if stretch is None:
+            return function(*arguments)
+        rows = zip(*(_rows(one, stretch) for one in arguments), strict=True)
+        return cast(_R, _gathered(stretch, [function(*cast(tuple[*_T], row)) for row in rows]))
+
+    return lifted
+
+
+def _flat(arguments: Iterable[object]) -> Iterator[object]:
+    for one in arguments:
+        if type(one) is tuple:
+            yield from one
+        else:
+            yield one
+
+
+def _rows(value: object, stretch: Stretch) -> list[object]:
+    if type(value) is ColumnNumber:
+        if value.stretch is not stretch or value.kind is not float:
+            raise LooksInsideError(stretch)
+        return cast(list[object], value.values.tolist())
+    if type(value) is tuple:
+        return list(zip(*(_rows(one, stretch) for one in value), strict=True))
+    return [value] * len(stretch.run)
+
+
+def _gathered(stretch: Stretch, results: list[object]) -> object:
+    import numpy as np
+
+    first = results[0]
+    if type(first) is tuple:
+        columns = zip(*cast(list[tuple[object, ...]], results), strict=True)
+        return tuple(_gathered(stretch, list(column)) for column in columns)
+    if any(type(one) is not float for one in results):
+        raise LooksInsideError(stretch)
+    return _number(stretch, np.array(results, dtype=np.float64))

@@ -1,0 +1,123 @@
+"""Long runs of moves by stretches: what is written and told is what comes of the moves one by one."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rpl import ir, translation
+from rpl.diagnostics import Diagnostics
+from rpl.ir.walk import walk
+from rpl.passes import stretches
+from rpl.passes.expanded import expanded
+from rpl.project import read_program
+from rpl.reading import runs
+from rpl.source import Source, source_from_text
+
+TARGETS = ("rapid", "tp", "krl", "urscript", "inform", "vplus", "val3", "rpl")
+Rows = list[list[str]]
+
+
+def krl(parts: list[Rows], between: str) -> Source:
+    def move(row: list[str]) -> str:
+        return f"LIN {{{','.join(map(' '.join, zip('XYZABC', row, strict=True)))}}} C_DIS"
+
+    bodies = ["\n".join(map(move, rows)) for rows in parts]
+    text = ["DEF long()", "DECL INT i", "$VEL.CP=0.25", "$APO.CDIS=5", f"\n{between}\n".join(bodies), "END", ""]
+    return source_from_text("long.src", "\n".join(text))
+
+
+def krl_axes(parts: list[Rows], between: str) -> Source:
+    names = [f"A{number}" for number in range(1, 7)]
+    bodies = ["\n".join(f"PTP {{{','.join(map(' '.join, zip(names, row, strict=True)))}}}" for row in p) for p in parts]
+    return source_from_text(
+        "axes.src", "\n".join(["DEF axes()", "DECL INT i", "BAS(#INITMOV,0)", f"\n{between}\n".join(bodies), "END", ""])
+    )
+
+
+def rapid(parts: list[Rows], between: str) -> Source:
+    def move(row: list[str]) -> str:
+        x, y, z, a, b, c = row
+        flags = f"[{int(float(a)) % 3 - 1},0,{int(float(b)) % 2},0]"
+        return f"  MoveL [[{x},{y},{z}],[0.{abs(int(float(c))):03},0.5,0.5,0.5],{flags},{_NONE}],v200,z1,tool0;"
+
+    bodies = ["\n".join(map(move, rows)) for rows in parts]
+    text = ["MODULE long", "VAR num i;", "PROC main()", f"\n{between}\n".join(bodies), "ENDPROC", "ENDMODULE", ""]
+    return source_from_text("long.mod", "\n".join(text))
+
+
+_NONE = "[9E9,9E9,9E9,9E9,9E9,9E9]"
+BETWEEN = {
+    krl: ("i=1", "; a remark", "$VEL.CP=0.1", "$APO.CDIS=20", "WAIT SEC 1", "$OUT[3]=TRUE", "HALT", "LIN_REL {X 5}"),
+    krl_axes: ("i=1", "; a remark", "$VEL_AXIS[1]=20", "$OUT[3]=TRUE"),
+    rapid: ("i:=1;", "! a remark", "VelSet 50,200;", "WaitTime 1;", "SetDO do1,1;", "Stop;"),
+}
+DISTURBING = ("0", "-0", "0.0", "-0.0", "5", "-5", ".5", "7.", "180.0", "-180.0", "-179.9999", "90.0", "0.10000")
+Write = Callable[[list[Rows], str], Source]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A list of points: how many, around which numbers, which of them are disturbed."""
+
+    seed: int
+    count: int
+    width: float
+    disturbed: tuple[tuple[int, int, str], ...]
+
+    def rows(self) -> Rows:
+        chance = random.Random(self.seed)
+        middles = [chance.uniform(-500, 500) for _ in range(3)] + [chance.uniform(-90, 90) for _ in range(3)]
+        rows = [[f"{middle + chance.uniform(-1, 1) * self.width:.3f}" for middle in middles] for _ in range(self.count)]
+        for at, column, spelling in self.disturbed:
+            rows[at % self.count][column] = spelling
+        return rows
+
+
+SPELLINGS = st.one_of(st.sampled_from(DISTURBING), st.sampled_from(("99999.0", "1999999999.0", "123456789")))
+LISTS = st.builds(
+    Asked,
+    st.integers(0, 10**6),
+    st.integers(1, 60),
+    st.sampled_from((0.0, 0.0004, 1.0, 30.0, 400.0)),
+    st.lists(st.tuples(st.integers(0, 10**3), st.integers(0, 5), SPELLINGS), max_size=4).map(tuple),
+)
+Written = tuple[list[tuple[str, bytes]], list[tuple[str, int, int, str]], object, object]
+
+
+def written(source: Source, target: str, whole: bool, robot: str | None = None) -> tuple[Written, int]:
+    """What comes of it, by moves or by stretches, and how many moves were written in stretches."""
+    diagnostics = Diagnostics()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runs, "SHORTEST", 3)
+        patch.setattr(stretches, "SHORTEST", 2)
+        if whole:
+            patch.setattr(translation, "with_stretches", lambda program, one_by_one: (expanded(program), ()))
+        read = read_program([source])
+        done = translation.translate_program(read, target, robot, diagnostics=diagnostics)
+    told = [(item.code.name, item.origin.start, item.origin.end, item.message) for item in diagnostics]
+    files = [(file.path, file.data) for file in done.files]
+    count = sum(len(node) for node in walk(*done.written.modules) if isinstance(node, ir.Rows))
+    return (files, told, done.registers, done.program), count
+
+
+@given(st.sampled_from((krl, krl_axes, rapid)), st.lists(LISTS, min_size=1, max_size=2), st.data())
+@settings(max_examples=60, deadline=None)
+def test_stretches_are_what_comes_of_each_move(write: Write, lists: list[Asked], data: st.DataObject) -> None:
+    source = write([one.rows() for one in lists], data.draw(st.sampled_from(BETWEEN[write])))
+    target = data.draw(st.sampled_from(TARGETS))
+    assert written(source, target, whole=False)[0] == written(source, target, whole=True)[0]
+
+
+@pytest.mark.parametrize(("write", "target"), [(krl, "rapid")])
+def test_long_lists_are_written_by_stretches(write: Write, target: str) -> None:
+    rows = Asked(3, 200, 5.0, ()).rows()
+    source = write([rows, rows], BETWEEN[write][0])
+    found, count = written(source, target, whole=False)
+    assert count > 300
+    assert found == written(source, target, whole=True)[0]
