@@ -8,7 +8,6 @@ R-2000iB published at onerobotics.com.
 """
 
 import re
-from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -21,9 +20,8 @@ from rpl.emulator.rotations import FloatArray, IntArray, matrix_to_zyx, pose_mat
 from rpl.emulator.selection import Candidates, Chosen, Rule, choose, joints_before
 from rpl.errors import SourceError
 
-FIELDS: Final = ("flip", "down", "back", "t1", "t4", "t6")
-BRANCH: Final = ("flip", "down", "back")
-TURN_AXES: Final = {"t1": 0, "t4": 3, "t6": 5}
+from .configtext import BRANCH, FIELDS, TURN_AXES, config_text, parse_config
+
 # An angle this close to half a turn counts as exactly half a turn, degrees (measured by CrossArm).
 SNAP_DEG: Final = 5e-4
 # A wrist this close to straight is not flipped: rounding in double precision, degrees.
@@ -36,10 +34,6 @@ _LISTED: Final = 6
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _COMPONENT = re.compile(rf"\bR?([XYZWPR])\s*[:=]\s*({_NUMBER})", re.IGNORECASE)
 _EXTENDED = re.compile(rf"\bE([1-3])\s*=\s*({_NUMBER})", re.IGNORECASE)
-_CONFIG = re.compile(
-    r"'?\s*([NF])?\s*([LR])?\s*([UD])?\s*([TB])?\s*,\s*(-?\d+)\s*,\s*(-?\d+)\s*,\s*(-?\d+)\s*'?", re.IGNORECASE
-)
-_LETTERS: Final = {"flip": "NF", "down": "UD", "back": "TB"}
 
 
 def turns_of(angles: FloatArray) -> FloatArray:
@@ -61,37 +55,6 @@ def _flipped(model: RobotModel, angles: FloatArray) -> BoolArray:
     """By the pendant's J5 on FANUC's own arms; on another arm by the same posture of the wrist."""
     theta = angles * model.pendant_to_arm[WRIST_AXIS, WRIST_AXIS] - model.offsets[WRIST_AXIS]
     return np.asarray(theta < -ON_LINE_DEG)
-
-
-def parse_config(text: str) -> dict[str, int | None] | None:
-    """The flags of a CONFIG text such as `N U T, 0, 0, 0`; None when it is none."""
-    flags = _parsed(text)
-    return None if flags is None else dict(flags)
-
-
-@lru_cache(maxsize=1000)
-def _parsed(text: str) -> dict[str, int | None] | None:
-    found = _CONFIG.search(text)
-    if found is None:
-        return None
-    wrist, hand, elbow, shoulder, *turns = found.groups()
-    if elbow is None and hand is not None:  # an arm of two links in a plane: which of the two ways its elbow bends
-        elbow = "UD"["RL".index(hand.upper())]
-    flags: dict[str, int | None] = {}
-    for name, letter in zip(BRANCH, (wrist, elbow, shoulder), strict=True):
-        flags[name] = None if letter is None else _LETTERS[name].index(letter.upper())
-    for name, turn in zip(TURN_AXES, turns, strict=True):
-        flags[name] = int(turn)
-    return flags
-
-
-def config_text(flags: Flags, flat: bool = False) -> str:
-    """`N U T, 0, 0, 0`, of a `flat` arm (SCARA) `R, 0, 0, 0`; a flag not known is written as the usual posture."""
-    letters = " ".join(_LETTERS[name][1 if flags.get(name) else 0] for name in BRANCH)
-    if flat:
-        letters = "RL"[1 if flags.get("down") else 0]
-    turns = ", ".join(str(flags.get(name) or 0) for name in TURN_AXES)
-    return f"{letters}, {turns}"
 
 
 class TpNotation:

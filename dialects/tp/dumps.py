@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import Origin, Source
 
-from .configuration import parse_config
+from .configtext import parse_config
 from .positions import Group, Position
 
 BAD_VALUE = code(

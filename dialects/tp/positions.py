@@ -15,7 +15,7 @@ from rpl.reading.shapes import StatementError
 from rpl.source import Origin
 
 from . import tables
-from .configuration import FIELDS, parse_config
+from .configtext import FIELDS, parse_config
 
 _HEAD = re.compile(r"P\s*\[\s*(\d+)\s*(?::\s*\"?(.*?)\"?\s*)?\]\s*\{", re.DOTALL)
 _GROUP = re.compile(r"\bGP(\d+)\s*:", re.IGNORECASE)
