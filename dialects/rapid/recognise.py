@@ -19,6 +19,7 @@ _DATA = re.compile(
     r"(?:num|robtarget|jointtarget|bool|string|tooldata|wobjdata)\s+\w+[^;\n]*;",
     re.IGNORECASE | re.MULTILINE,
 )
+_TAIL = 20_000  # of a text that is longer than what is looked at
 _MOVE = re.compile(r"^[ \t]*+Move(?:AbsJ|J|L|C)\b[^;\n]*,[^;\n]*;", re.IGNORECASE | re.MULTILINE)
 
 
@@ -41,7 +42,7 @@ def recognise(path: str, text: str) -> int:
     if _HEADER.match(sample):
         return 99
     if _MODULE.match(sample):
-        return 98 if _END.search(sample) else 70
+        return 98 if _END.search(sample) or _END.search(text, max(0, len(text) - _TAIL)) else 70
     if _PROC.search(sample) and _END.search(sample):
         return 85
     if _DATA.search(sample):

@@ -152,3 +152,10 @@ def test_vendor_functions_take_any_arguments() -> None:
     result, diagnostics = read(text)
     normalise(result.program, diagnostics)
     assert not diagnostics.items
+
+
+def test_a_module_is_recognised_whose_routines_end_far_behind_its_beginning() -> None:
+    point = "    MoveL [[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,z1,tool0;\n"
+    text = "MODULE long\n  PROC main()\n" + point * 4000 + "  ENDPROC\nENDMODULE\n"
+    recognise = registry.dialect("rapid").recognise
+    assert recognise("long.txt", text) == recognise("short.txt", text.replace(point, "", 3990))
