@@ -234,3 +234,32 @@ POINTS = {
     "rapid": (rapid_points, "points.mod"),
     "tp": (tp_points, "points.ls"),
 }
+
+
+def rapid_taught(lines: int, seed: int = 1) -> str:
+    """A RAPID module of so many lines: taught points by name, and as many moves to them."""
+    rng = random.Random(seed)
+    data, text = ["MODULE taught"], ["  PROC main()"]
+    for number in range(10, 5 * (lines - 4) + 1, 10):
+        x, y, z = rng.uniform(300, 500), rng.uniform(-200, 200), rng.uniform(300, 500)
+        flags = f"{rng.randint(-1, 1)},{rng.randint(-1, 1)},{rng.randint(-1, 1)},0"
+        target = f"[[{x:.2f},{y:.2f},{z:.2f}],[0.707107,0,0.707107,0],[{flags}],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+        data.append(f"  CONST robtarget p{number}:={target};")
+        text.append(f"    MoveL p{number},v{rng.choice((100, 200, 500))},z10,tool0;")
+    return "\n".join([*data, *text, "  ENDPROC", "ENDMODULE", ""])
+
+
+def krl_taught(lines: int, seed: int = 1) -> str:
+    """A KRL data list of so many taught points."""
+    rng = random.Random(seed)
+    text = ["DEFDAT taught PUBLIC"]
+    for number in range(1, lines - 1):
+        x, y, z = rng.uniform(400, 600), rng.uniform(-200, 200), rng.uniform(300, 600)
+        a, b, c = rng.uniform(-90, 90), rng.uniform(60, 90), rng.uniform(-90, 90)
+        flags = f"S {rng.choice((2, 6))},T {rng.choice((2, 35))}"
+        place = f"X {x:.4f},Y {y:.4f},Z {z:.4f},A {a:.4f},B {b:.4f},C {c:.4f},{flags}"
+        text.append(f"DECL E6POS XP{number}={{{place},E1 0.0,E2 0.0,E3 0.0,E4 0.0,E5 0.0,E6 0.0}}")
+    return "\n".join([*text, "ENDDAT", ""])
+
+
+TAUGHT = {"rapid": (rapid_taught, "taught.mod"), "krl": (krl_taught, "taught.dat")}

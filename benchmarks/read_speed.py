@@ -1,50 +1,63 @@
-"""How fast long programs read: generated ones of 20,000 lines, from text to normal form.
+"""How fast long programs are read and checked: mixed ones, lists of points, taught points by name.
 
-    python benchmarks/read_speed.py [--lines 20000] [--from DIALECT]
+    python benchmarks/read_speed.py [--lines 20000] [--from DIALECT] [--twice]
 
-Processor time of one process; twice the lines take twice the time in every language. Lines read a second on two cores
-that others used too, with Python 3.11: TP 48,000, KRL 27,000, INFORM 12,500, RPL 12,500, V+ 10,500, URScript 10,000,
-RAPID 9,600; the normal form takes another tenth to half of that time.
+Processor time of one process for all that `rpl check` does with a text; beside it one pass of a regular expression over
+the same text. `--twice`: also twice the lines, which take twice the time. Whole commands, their memory, Lark on the
+whole file and sqlglot: point_programs.py.
 """
 
 from __future__ import annotations
 
 import argparse
+import re
 import time
+from collections.abc import Callable, Iterator
 
-from generate import GENERATORS
+from generate import GENERATORS, POINTS, TAUGHT
 
-from rpl import registry
 from rpl.diagnostics import Diagnostics
-from rpl.passes.collector import paused_cycle_collector
-from rpl.passes.typing import normalise
+from rpl.project import read_program
 from rpl.source import source_from_text
+
+_WORD = re.compile(r"-?\d+(?:\.\d*)?|\w+|\S")
+
+
+def cases(names: list[str] | None) -> Iterator[tuple[str, Callable[[int], str], str]]:
+    """What is measured, what writes a text of so many lines, and the name of its file."""
+    for kind, generators in (("mixed", GENERATORS), ("points", POINTS), ("taught", TAUGHT)):
+        for name, (generate, path) in generators.items():
+            if not names or name in names:
+                yield f"{name} {kind}", generate, path
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--lines", type=int, default=20_000)
     parser.add_argument("--from", dest="names", action="append", choices=GENERATORS, help="only this language")
+    parser.add_argument("--twice", action="store_true", help="also twice the lines")
     given = parser.parse_args()
-    lines: int = given.lines
-    for name, (generate, path) in GENERATORS.items():
-        if given.names and name not in given.names:
-            continue
-        source = source_from_text(path, generate(lines))
-        registry.dialect(name).read([source_from_text(path, generate(50))], Diagnostics())  # imports and tables
-        diagnostics = Diagnostics()
-        with paused_cycle_collector():  # as in `rpl.project`
-            started = time.process_time()
-            result = registry.dialect(name).read([source], diagnostics)
-            read = time.process_time()
-            normalise(result.program, diagnostics)
-            done = time.process_time()
-        print(
-            f"{name}: {lines} lines, read {read - started:.2f} s ({lines / (read - started):,.0f} lines/s),"
-            f" normal form {done - read:.2f} s, {len(diagnostics)} reports"
-        )
-        for item in list(diagnostics)[:3]:
-            print(f"  {item.as_text()}")
+    for what, generate, path in cases(given.names):
+        read_program([source_from_text(path, generate(50))])  # imports and tables
+        for lines in (given.lines, 2 * given.lines)[: 1 + given.twice]:
+            measure(what, source_from_text(path, generate(lines)).text, path)
+
+
+def measure(what: str, text: str, path: str) -> None:
+    lines, diagnostics = text.count("\n"), Diagnostics()
+    started = time.process_time()
+    read = read_program([source_from_text(path, text)], diagnostics=diagnostics)
+    taken = time.process_time() - started
+    started = time.process_time()
+    words = len(_WORD.findall(text))
+    bare = time.process_time() - started
+    statements = sum(report.statements for report in read.files)
+    print(
+        f"{what:16} {lines:>9,} lines {taken:7.2f} s {lines / taken:>9,.0f} lines/s;"
+        f" {statements:,} statements, {len(diagnostics)} reports; a regular expression over its {words:,} words:"
+        f" {lines / bare:,.0f} lines/s",
+        flush=True,
+    )
 
 
 if __name__ == "__main__":
