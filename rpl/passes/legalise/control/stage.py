@@ -29,5 +29,6 @@ STAGE = Stage(
     Clause(
         statements="ExitLoop Loop NextPass Repeat While",
         operators="cand cor not",
+        further=frozenset(("function of the program", "parameter")),
     ),
 )

@@ -13,7 +13,7 @@ from rpl.passes.legalise.errors.ownrecords import apart_from_neutral_records
 from rpl.passes.legalise.errors.possiblecases import possible_cases
 from rpl.passes.legalise.errors.prelude import link_prelude
 from rpl.passes.legalise.errors.usedelements import used_elements
-from rpl.passes.legalise.stages import Stage, again
+from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 
 STAGE = Stage(
@@ -28,5 +28,10 @@ STAGE = Stage(
         used_elements,
         possible_cases,
         again(labels_to_structure, "ways through the program are followed behind it, and are structure then"),
+    ),
+    Clause(
+        statements="Goto Label",
+        functions="error_text",
+        system="interrupt_joints interrupt_pose",
     ),
 )

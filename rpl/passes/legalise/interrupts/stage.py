@@ -50,6 +50,7 @@ STAGE = Stage(
         task_arguments,
     ),
     Clause(
-        statements="TaskControl",
+        statements="StoreMotion TaskControl",
+        further=frozenset(("operation join of a task", "operation stop of a task")),
     ),
 )

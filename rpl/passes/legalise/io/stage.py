@@ -34,8 +34,6 @@ STAGE = Stage(
         groups_to_bits,
     ),
     Clause(
-        statements="ConnectInterrupt ControlInterrupt DeclareInterrupt",
         system="timer_positive",
-        further=frozenset(("search of a move",)),
     ),
 )

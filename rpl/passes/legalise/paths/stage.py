@@ -15,7 +15,7 @@ from rpl.passes.legalise.paths.targets import whole_targets
 from rpl.passes.legalise.paths.triggers import triggers
 from rpl.passes.legalise.paths.wristpaths import wrist_paths
 from rpl.passes.legalise.routines.aliasing import without_shared_references
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "paths",
@@ -30,5 +30,9 @@ STAGE = Stage(
         action_arguments,
         triggers,
         whole_targets,
+    ),
+    Clause(
+        statements="ClearMotion LookAhead",
+        further=frozenset(("arc by its angle", "even turn of the wrist", "relative move")),
     ),
 )

@@ -59,7 +59,7 @@ STAGE = Stage(
         told_turns,
     ),
     Clause(
-        statements="SetForNextMove",
+        statements="OnError SetForNextMove",
         system="posture_shoulder",
     ),
 )

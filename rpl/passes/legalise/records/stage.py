@@ -37,6 +37,7 @@ STAGE = Stage(
         statements="OrderInterrupt ResumeLevel StopMotion",
         functions="acos current_joints current_target distance euler_x euler_y euler_z frame_from_points "
         "inverse joints_to_target magnitude offset rotation_zyx tool_offset transform",
+        operators="@",
         system="null_frame",
         types="NamedType SpeedType ToolType VectorType WorkObjectType ZoneType",
         further=frozenset(("declaration RecordDeclaration",)),

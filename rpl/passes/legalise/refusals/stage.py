@@ -5,6 +5,13 @@ interrupts, the last that may find a form, and before signals and settings get t
 from __future__ import annotations
 
 from rpl.passes.legalise.refusals import refuse
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
-STAGE = Stage("refusals", (refuse,))
+STAGE = Stage(
+    "refusals",
+    (refuse,),
+    Clause(
+        statements="ConnectInterrupt ControlInterrupt DeclareInterrupt",
+        further=frozenset(("search of a move",)),
+    ),
+)

@@ -13,7 +13,7 @@ from rpl.passes.legalise.routines.subscriptchecks import checked_subscripts
 from rpl.passes.legalise.routines.textpartchecks import checked_text_parts
 from rpl.passes.legalise.routines.undefined import asked_values
 from rpl.passes.legalise.routines.valuearrays import copy_value_arrays
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "routines",
@@ -27,5 +27,9 @@ STAGE = Stage(
         checked_subscripts,
         checked_text_parts,
         array_sizes,
+    ),
+    Clause(
+        functions="is_uninitialised",
+        further=frozenset(("call by a computed name", "function that gives a list", "optional parameter")),
     ),
 )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from rpl.passes.legalise.searches.searches import searches
 from rpl.passes.legalise.searches.searchparts import search_parts
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "searches",
@@ -14,4 +14,5 @@ STAGE = Stage(
         searches,
         search_parts,
     ),
+    Clause(further=frozenset(("result of a search",))),
 )

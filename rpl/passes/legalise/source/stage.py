@@ -92,6 +92,7 @@ STAGE = Stage(
         without_empty_reactions,
     ),
     Clause(
+        statements="Spline",
         functions="displaced displaced_in_tool element_difference element_sum external_from_pulses "
         "interpolate_pose joint_pulses joints_from_pulses pose_from_rotation_vector pose_of pose_sum "
         "rotation_vector_x rotation_vector_y rotation_vector_z text_value with_external",

@@ -43,10 +43,10 @@ STAGE = Stage(
         enums_to_constants,
     ),
     Clause(
-        statements="Raise Retry Switch TryNext",
+        statements="Raise Retry SetAfter Switch TryNext",
         functions="ceil character_code dimension floor format message_text number_text power round text_append "
         "text_find text_map text_part text_upper trunc value_text",
-        procedures="format_into increment",
+        procedures="decrement format_into increment",
         operators="& ** band bnot bor bxor xor",
         system="error_number",
         further=frozenset(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 from rpl.passes.legalise.storage.aheadreadings import ahead_readings
 from rpl.passes.legalise.storage.begunanew import begun_anew
 from rpl.passes.legalise.storage.errorcodes import name_errors
@@ -33,4 +33,5 @@ STAGE = Stage(
         number_data,
         place_made_statements,
     ),
+    Clause(further=frozenset(("datum without a number", "name in another spelling"))),
 )

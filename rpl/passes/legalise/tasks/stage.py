@@ -4,7 +4,7 @@ a routine that becomes a task is looked at as a program of its own by all others
 
 from __future__ import annotations
 
-from rpl.passes.legalise.stages import Stage
+from rpl.passes.legalise.stages import Clause, Stage
 from rpl.passes.legalise.tasks.calledtasks import called_tasks
 from rpl.passes.legalise.tasks.secondstarts import second_starts
 from rpl.passes.legalise.tasks.startedtasks import started_tasks
@@ -21,5 +21,9 @@ STAGE = Stage(
         task_states,
         second_starts,
         called_tasks,
+    ),
+    Clause(
+        functions="task_runs",
+        further=frozenset(("data of several tasks",)),
     ),
 )
