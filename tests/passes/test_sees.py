@@ -24,6 +24,7 @@ PROGRAMS = {"rapid": ".mod", "krl": ".src", "vplus": ".v2", "rpl": ".rpl"}
 @pytest.mark.parametrize("language", list(PROGRAMS))
 def test_a_pass_that_sees_nothing_does_nothing(language: str, target: str, monkeypatch: pytest.MonkeyPatch) -> None:
     skipped: list[str] = []
+    acted: list[str] = []
 
     def checked(passes: Iterable[Pass], program: ir.Program, context: Context) -> ir.Program:
         for one in passes:
@@ -33,8 +34,8 @@ def test_a_pass_that_sees_nothing_does_nothing(language: str, target: str, monke
             done = one.run(program, context)
             if one.sees and one.sees.isdisjoint(Kinds().of(program)):
                 skipped.append(one.name)
-                assert done == program, one.name
-                assert len(context.diagnostics.items) == reported, one.name
+                if done != program or len(context.diagnostics.items) != reported:
+                    acted.append(one.name)
             program = done
         return program
 
@@ -43,4 +44,5 @@ def test_a_pass_that_sees_nothing_does_nothing(language: str, target: str, monke
     sources = [source_from_bytes(path.name, path.read_bytes()) for path in paths]
     read = read_sources(sources, language, Diagnostics())
     translate_program(read, target, "kuka_kr6r900sixx", None, Diagnostics())
+    assert acted == []
     assert skipped

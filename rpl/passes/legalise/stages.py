@@ -7,7 +7,7 @@ is kept by statement, so that a pass which changes three statements of 200,000 c
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -149,7 +149,8 @@ def run_passes(passes: Iterable[Pass], program: ir.Program, context: Context) ->
 
 def kinds_of(node: object) -> tuple[str, ...]:
     """What a pass may see of one node: the name of its class, and of a built-in thing which one it is: `Move`;
-    `Builtin`, `function text_part`; `System`, `system tool`; `Binary`, `operator mod`; `Do`, `procedure set_group`."""
+    `Builtin`, `function text_part`; `System`, `system tool`; `Binary`, `operator mod`; `Do`, `procedure set_group`;
+    `Signal`, `signal flag`; of moves also `move_kinds`."""
     name = node.__class__.__name__
     match node:
         case ir.Builtin(function=which):
@@ -160,7 +161,21 @@ def kinds_of(node: object) -> tuple[str, ...]:
             return name, f"operator {which}"
         case ir.Do(procedure=which):
             return name, f"procedure {which}"
+        case ir.Signal(kind=which):
+            return name, f"signal {which}"
+        case ir.Move():
+            return name, *move_kinds(node)
     return (name,)
+
+
+def move_kinds(move: ir.Move) -> Iterator[str]:
+    """What is not said of every move: `concurrent move`, `move relative to base`, `velocity move`."""
+    if move.concurrent:
+        yield "concurrent move"
+    if move.relative is not None:
+        yield f"move relative to {move.relative}"
+    if move.motion_class != "classic":
+        yield f"{move.motion_class} move"
 
 
 class Kinds:

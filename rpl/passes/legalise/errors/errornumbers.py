@@ -34,14 +34,14 @@ _COMES_FROM: Mapping[str, tuple[type, ...]] = {
 }
 
 
-@legalising()
+@legalising(sees=("Raise", "System", "Handler"))
 def error_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with error handlers of their own, whose numbers are not the source's."""
     if not context.capabilities.errors.handlers:
         return program
     theirs = rules_of(context.target).errors
     numbers = {name: number for name, number in rules_of(context.source).errors.items() if spelled_among(name, theirs)}
-    if not numbers or not any(isinstance(node, ir.Raise | ir.System | ir.Handler) for node in walk(*program.modules)):
+    if not numbers:
         return program
     program = _Named(program, context, numbers).program()
     known = _Errors(program, numbers)

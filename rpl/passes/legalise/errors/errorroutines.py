@@ -35,7 +35,7 @@ MOTION = code(
 _BEFORE = (ir.Nothing, ir.Assign, ir.Message)
 
 
-@legalising()
+@legalising(sees=("OnError",))
 def error_routines(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without OnError, and for programs that raise errors of their own where the target cannot."""
     raised = any(isinstance(one, ir.Raise) for one in walk(*program.modules))

@@ -6,7 +6,6 @@ A number of no known error is its own text, as in a run of the source.
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -16,22 +15,21 @@ from rpl.passes.legalise.stages import legalising
 @legalising(unless=lambda context: "error_text" in context.capabilities.functions, sees=("function error_text",))
 def error_texts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the function."""
-    asked = any(isinstance(one, ir.Builtin) and one.function == "error_text" for one in walk(*program.modules))
-    if not asked:
-        return program
     name = context.fresh("rpl_error_text")
-    done = _Texts(program, context, name).program()
-    return with_support(done, context, (), (_function(name, context),))
+    texts = _Texts(program, context, name)
+    done = texts.program()
+    return with_support(done, context, (), (_function(name, context),)) if texts.asked else program
 
 
 class _Texts(Rewriter):
     def __init__(self, program: ir.Program, context: Context, function: str) -> None:
         super().__init__(program, context)
-        self.function = function
+        self.function, self.asked = function, False
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         done = super().expression(expression)
         if isinstance(done, ir.Builtin) and done.function == "error_text":
+            self.asked = True
             arguments = tuple(ir.Argument(one) for one in done.arguments)
             return ir.Call(self.function, arguments, origin=done.origin)
         return done

@@ -27,7 +27,7 @@ _PLACES = {
 }
 
 
-@legalising(sees=("System",))
+@legalising(sees=("system interrupt_pose", "system interrupt_joints"))
 def interrupt_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such system variables, whose programs can have interrupts."""
     has = context.capabilities.system_variables

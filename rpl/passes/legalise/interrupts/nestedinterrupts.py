@@ -29,7 +29,8 @@ _TAKES_TIME = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Move, ir.Spline, ir.D
                 or context.capabilities.interrupts.watched is Watched.INTERRUPTS
             )
         )
-    )
+    ),
+    sees=("DeclareInterrupt",),
 )
 def nested_interrupts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose interrupts do not interrupt each other. The program stays as it is."""

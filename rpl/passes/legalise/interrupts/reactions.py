@@ -46,7 +46,8 @@ _FIRST_PRIORITY = 10  # as passes.interrupts numbers them
         context.capabilities.interrupts.watched is Watched.ALL
         or context.capabilities.interrupts.watched is Watched.INTERRUPTS
         or not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
-    )
+    ),
+    sees=("DeclareInterrupt",),
 )
 def reactions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with interrupts, and programs that give theirs an identity."""

@@ -29,7 +29,7 @@ NOT_BRAKED = code(
 )
 
 
-@legalising()
+@legalising(sees=("ResumeLevel",))
 def resumes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot resume at the level of a declaration but can clear the path."""
     statements, drops = context.capabilities.statements, InterruptRule.STOPPING in context.capabilities.interrupts.rules

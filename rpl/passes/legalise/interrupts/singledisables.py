@@ -33,7 +33,8 @@ _HOLDS = ("disable", "enable")
         or context.capabilities.interrupts.watched is Watched.ALL
         or context.capabilities.interrupts.watched is Watched.INTERRUPTS
         or not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
-    )
+    ),
+    sees=("ControlInterrupt",),
 )
 def single_disables(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose controller has interrupts, and none of them can be disabled alone."""

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.analog import AnalogRange
-from rpl.ir.walk import walk
 from rpl.passes.analog import AnalogRanges
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
@@ -48,11 +47,9 @@ _SWAPPED = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "=": "=", "<>": "<>"}
 _DIGITS = 12
 
 
-@legalising(sees=("Signal",))
+@legalising(sees=("signal analog_in", "signal analog_out"))
 def analog_units(program: ir.Program, context: Context) -> ir.Program:
     """For all targets; a signal with the same range on both controllers stays as it is."""
-    if not any(isinstance(one, ir.Signal) and one.kind in _KINDS for one in walk(*program.modules)):
-        return program
     languages = {module.dialect for module in program.modules}
     known = {one: context.analog.get(one) or AnalogRanges(one) for one in (*languages, context.target)}
     worker = _Units(context, known, known[context.target])

@@ -24,7 +24,7 @@ COMPUTED = code(
 _REACH = 32
 
 
-@legalising(sees=("Signal", "System"))
+@legalising(sees=("signal flag", "system flag"))
 def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without flags, or with fewer than are named, and for programs that compute the number of one."""
     can = context.capabilities

@@ -25,7 +25,8 @@ _FULL_PERCENT = 100.0
 
 
 @legalising(
-    unless=lambda context: "override" in context.capabilities.system_variables or context.capabilities.carries_rules
+    unless=lambda context: "override" in context.capabilities.system_variables or context.capabilities.carries_rules,
+    sees=("system override",),
 )
 def full_override(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the override among their system variables."""

@@ -26,7 +26,8 @@ _FULL_PERCENT = 100.0
 @legalising(
     unless=lambda context: (
         context.capabilities.settings.reads_override or "override" not in context.capabilities.system_variables
-    )
+    ),
+    sees=("system override",),
 )
 def read_overrides(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that set the override and cannot read it, and programs that read it."""

@@ -33,7 +33,8 @@ REFUSED = code(
 
 
 @legalising(
-    unless=lambda context: _SHARE in context.capabilities.system_variables or context.capabilities.carries_rules
+    unless=lambda context: _SHARE in context.capabilities.system_variables or context.capabilities.carries_rules,
+    sees=(f"system {_SHARE}", f"system {_LIMIT}"),
 )
 def speed_shares(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such settings, and programs that set them and never ask for them."""

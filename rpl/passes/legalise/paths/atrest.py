@@ -26,7 +26,8 @@ _MOVING = ir.System("moving")
 
 
 @legalising(
-    unless=lambda context: rules_of(context.source).advance.runs_ahead_of != "fly_by", sees=("StopMotion", "System")
+    unless=lambda context: rules_of(context.source).advance.runs_ahead_of != "fly_by",
+    sees=("StopMotion", "system moving"),
 )
 def at_rest(program: ir.Program, context: Context) -> ir.Program:
     """Only for sources whose moves without a corner have ended before the next statement, and where interrupts and
@@ -34,8 +35,6 @@ def at_rest(program: ir.Program, context: Context) -> ir.Program:
     if program.tasks:
         return program
     nodes = list(walk(*program.modules))
-    if not any(isinstance(n, ir.StopMotion) or n == _MOVING for n in nodes):
-        return program
     worker = _AtRest(Facts(program))
     if not worker.beside([n for n in nodes if isinstance(n, _INTERRUPTS)]):
         return program

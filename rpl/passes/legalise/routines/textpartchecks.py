@@ -7,7 +7,6 @@ length or a length that was cut to what is left proves to be inside stays as it 
 from __future__ import annotations
 
 from rpl import ir, registry
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
@@ -27,13 +26,12 @@ _SIMPLE = (ir.Name, ir.IntLiteral, ir.TextLiteral)
             context.source in registry.target_names()
             and Fault.TEXT_PART not in registry.target(context.source).capabilities().errors.faults
         )
-    )
+    ),
+    sees=("function text_part",),
 )
 def checked_text_parts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cut, where the source does not. A program that catches the error keeps its handlers."""
     can = context.capabilities
-    if not any(_part(node) for node in walk(*program.modules)):
-        return program
     if not can.errors.handlers and "out_of_range" in raising_of(program).caught:
         return program
 

@@ -32,11 +32,9 @@ _ASKED = "is_uninitialised"
 _STORING = frozenset(("increment", "decrement", "clear", "text_clear", "text_copy", "text_append"))
 
 
-@legalising(unless=lambda context: _ASKED in context.capabilities.functions, sees=("Builtin",))
+@legalising(unless=lambda context: _ASKED in context.capabilities.functions, sees=(f"function {_ASKED}",))
 def asked_values(program: ir.Program, context: Context) -> ir.Program:
     """The program without the question, as far as it can be followed."""
-    if not any(isinstance(node, ir.Builtin) and node.function == _ASKED for node in walk(*program.modules)):
-        return program
     calls = _Calls()
     program = _rewritten(program, _Flags(), calls)
     program = _rewritten(program, _Facts(program).flags(context, calls), _Calls())

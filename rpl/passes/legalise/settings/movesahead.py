@@ -28,12 +28,12 @@ WAITED_FOR = code(
 )
 
 
-@legalising(unless=lambda context: context.capabilities.motion.concurrent is Concurrent.MOVES, sees=("Move",))
+@legalising(
+    unless=lambda context: context.capabilities.motion.concurrent is Concurrent.MOVES, sees=("concurrent move",)
+)
 def moves_ahead(program: ir.Program, context: Context) -> ir.Program:
     """Moves that the program does not wait for, as the target can say them; otherwise the loss is named."""
     kind = context.capabilities.motion.concurrent
-    if not any(isinstance(node, ir.Move) and node.concurrent for node in walk(*program.modules)):
-        return program
     beside = Beside(program, context)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

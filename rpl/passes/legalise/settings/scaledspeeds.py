@@ -44,12 +44,11 @@ _OVERRIDE = ir.System("override")
 
 
 @legalising(
-    unless=lambda context: "override" in context.capabilities.system_variables or context.capabilities.carries_rules
+    unless=lambda context: "override" in context.capabilities.system_variables or context.capabilities.carries_rules,
+    sees=("system override",),
 )
 def scaled_override(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the override among their system variables, whose moves say their own speeds."""
-    if not any(_is_override(node) for node in walk(program)):
-        return program
     if not any(_sets(node) for node in walk(program)):
         return _as_full(program, context)
     moves = [node for node in walk(program) if isinstance(node, ir.Move)]
@@ -79,7 +78,9 @@ def scaled_override(program: ir.Program, context: Context) -> ir.Program:
 
 def _as_full(program: ir.Program, context: Context) -> ir.Program:
     """An override that the program only reads."""
-    first = next(node for node in walk(program) if _is_override(node))
+    first = next((node for node in walk(program) if _is_override(node)), None)
+    if first is None:
+        return program
     assert isinstance(first, ir.System)
     context.diagnostics.report(READ, first.origin)
     return rewrite(program, lambda node: ir.RealLiteral(_FULL) if _is_override(node) else node)

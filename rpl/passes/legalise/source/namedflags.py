@@ -10,7 +10,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(sees=("Signal",))
+@legalising(sees=("signal flag",))
 def named_flags(program: ir.Program, context: Context) -> ir.Program:
     """Flags by a name as truth values."""
     names: dict[str, str] = {}

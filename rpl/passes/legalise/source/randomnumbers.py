@@ -25,14 +25,13 @@ CALCULATED = code(
 _FACTOR, _MODULUS, _SEED = 171, 30269, 12345
 
 
-@legalising(unless=lambda context: "random" in context.capabilities.functions)
+@legalising(unless=lambda context: "random" in context.capabilities.functions, sees=("function random",))
 def random_numbers(program: ir.Program, context: Context) -> ir.Program:
     """The program with a routine in place of `random`."""
-    if not any(map(_random, walk(program))):
+    first = next((node for node in walk(program) if _random(node)), None)
+    if not isinstance(first, ir.Builtin):
         return program
     state, name = context.fresh("rpl_random_state"), context.fresh("rpl_random")
-    first = next(node for node in walk(program) if _random(node))
-    assert isinstance(first, ir.Builtin)
     context.diagnostics.report(CALCULATED, first.origin, name=state)
     last = ir.Name(state)
     stepped = ir.Binary("mod", times(last, ir.IntLiteral(_FACTOR)), ir.IntLiteral(_MODULUS))

@@ -48,11 +48,9 @@ _LOGIC = (ir.Signal, ir.Unary, ir.Binary, ir.BoolLiteral, ir.IntLiteral, ir.Real
 _PAUSE_S = 0.1  # s: a loop that waits longer than this between two such motions does something else meanwhile
 
 
-@legalising()
+@legalising(sees=("velocity move",))
 def rates(program: ir.Program, context: Context) -> ir.Program:
     """For every target of another language; none can say it."""
-    if not any(map(_is_rate, walk(*program.modules))):
-        return program
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Rates(editor).body)

@@ -30,7 +30,7 @@ PULSED = code(
 _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
-@legalising(unless=lambda context: PulseRule.ANY_LEVEL in context.capabilities.io.pulses)
+@legalising(unless=lambda context: PulseRule.ANY_LEVEL in context.capabilities.io.pulses, sees=("Pulse",))
 def pulsed_outputs(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose pulses are to high."""
     scopes = ProgramScope(program)

@@ -31,7 +31,8 @@ _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
         )
         or "start" not in context.capabilities.tasks.operations
         or "TaskControl" not in context.capabilities.statements
-    )
+    ),
+    sees=("Pulse",),
 )
 def pulse_levels(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that pulse to high, or for known times, and can begin a task."""

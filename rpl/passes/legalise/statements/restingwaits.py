@@ -13,7 +13,7 @@ from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: context.capabilities.io.waits_at_rest)
+@legalising(unless=lambda context: context.capabilities.io.waits_at_rest, sees=("Wait", "WaitUntil"))
 def resting_waits(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose waits do not say it."""
 

@@ -24,7 +24,7 @@ _TIMES = frozenset(("timer", "timer_positive", "time"))
 _CLOCKS = frozenset(("clock_seconds",))
 
 
-@legalising()
+@legalising(sees=("WaitUntil",))
 def seldom_looks(program: ir.Program, context: Context) -> ir.Program:
     """Tells of such waits, each statement of the source once; the program stays as it is."""
     source, target = (rules_of(one).wait_poll_s for one in (context.source, context.target))

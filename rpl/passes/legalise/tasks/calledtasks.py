@@ -46,7 +46,7 @@ _PRIORITY = 1  # more urgent than any other interrupt of the program
 _FIRST_IDENTITY = 9001
 
 
-@legalising(unless=lambda context: context.capabilities.tasks.moving)
+@legalising(unless=lambda context: context.capabilities.tasks.moving, sees=("TaskControl",))
 def called_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose other tasks cannot move the robot."""
     controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]

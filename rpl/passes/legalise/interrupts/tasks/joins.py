@@ -22,7 +22,8 @@ from rpl.passes.legalise.stages import legalising
         "TaskControl" not in context.capabilities.statements
         or "join" in context.capabilities.tasks.operations
         or "start" not in context.capabilities.tasks.operations
-    )
+    ),
+    sees=("TaskControl",),
 )
 def joins(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks can be started and not joined."""

@@ -21,7 +21,8 @@ from rpl.passes.legalise.stages import legalising
     unless=lambda context: (
         context.capabilities.interrupts.watched is not Watched.ALL
         and context.capabilities.routines.parameters is Parameters.NAMES
-    )
+    ),
+    sees=("TaskControl",),
 )
 def task_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks take none."""

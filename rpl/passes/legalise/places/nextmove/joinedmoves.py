@@ -25,7 +25,7 @@ from rpl.passes.legalise.stages import legalising
 _JOINED = ir.System("blending")
 
 
-@legalising(unless=lambda context: "blending" in context.capabilities.system_variables)
+@legalising(unless=lambda context: "blending" in context.capabilities.system_variables, sees=("system blending",))
 def joined_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the switch, and where moves that say nothing find it at one value."""
     start = rules_of(context.source).system_defaults.get("blending")

@@ -54,7 +54,7 @@ _LEAVES = (ir.Label, ir.Goto, ir.Return, ir.ExitLoop, ir.NextPass, ir.Raise, ir.
 _DEEPEST = 8  # calls in calls that are looked into
 
 
-@legalising()
+@legalising(sees=("Wait",))
 def queued_waits(program: ir.Program, context: Context) -> ir.Program:
     """Only from controllers whose waits at rest are moves to others."""
     source, target = (rules_of(one).advance.waits_queue for one in (context.source, context.target))

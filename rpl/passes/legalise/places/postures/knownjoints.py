@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Any
 
 from rpl import ir, registry
-from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
@@ -30,12 +29,10 @@ _AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
         or context.capabilities.places.kinematics is not None
         or (context.to_robot is not None and context.to_robot is not context.robot)
     ),
-    sees=("Builtin",),
+    sees=[f"function {one}" for one in _SOLVED],
 )
 def known_joints(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the functions, on the arm that the program was written for."""
-    if not any(isinstance(one, ir.Builtin) and one.function in _SOLVED for one in walk(*program.modules)):
-        return program
     return _Known(program, context).program()
 
 

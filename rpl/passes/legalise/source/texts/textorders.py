@@ -5,7 +5,6 @@ function of the program compares them sign by sign, as the source's operators do
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
@@ -35,12 +34,10 @@ END FUNCTION
 
 @legalising(
     unless=lambda context: TextRule.ORDER in context.capabilities.texts.rules or context.capabilities.carries_rules,
-    sees=("Binary",),
+    sees=[f"operator {one}" for one in _ORDERS],
 )
 def text_orders(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose operators do not order texts."""
-    if not any(isinstance(node, ir.Binary) and node.op in _ORDERS for node in walk(*program.modules)):
-        return program
     worker = _Orders(program, context)
     return worker.helpers.added_to(worker.program())
 

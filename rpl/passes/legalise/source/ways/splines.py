@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.places.partialplaces import moving_routines
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
@@ -53,12 +53,10 @@ def without_path_rules(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(rewrite(module, change) for module in program.modules))
 
 
-@legalising()
+@legalising(sees=("Spline", "spline move"))
 def straight_splines(program: ir.Program, context: Context) -> ir.Program:
     """For targets without spline blocks, or with blocks of points without settings."""
     blocks = "Spline" in context.capabilities.statements
-    if not any(map(_is_spline, walk(*program.modules))):
-        return program
     unchanged, moving, modes = unchanged_in(program), moving_routines(program), modes_set(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.capabilities import TurnedWay
 from rpl.passes.fold import Unchanged, constant, lasting
@@ -29,11 +28,12 @@ _ANGLES = ("a", "b", "c")
 _PLACES = 9
 
 
-@legalising(unless=lambda context: context.capabilities.motion.turned_ways == frozenset(TurnedWay), sees=("Move",))
+@legalising(
+    unless=lambda context: context.capabilities.motion.turned_ways == frozenset(TurnedWay),
+    sees=("move relative to base", "move relative to tool"),
+)
 def turned_ways(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such relative moves."""
-    if not any(isinstance(node, ir.Move) and node.relative in ("base", "tool") for node in walk(program)):
-        return program
     scopes, unchanged, usual = ProgramScope(program), unchanged_in(program), usual_places(program)
     modules = []
     for module in program.modules:
