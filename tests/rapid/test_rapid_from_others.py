@@ -8,8 +8,9 @@ from rapid_helpers import normal
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.passes.typing import normalise
-from rpl.project import ReadProgram
+from rpl.project import ReadProgram, read_sources
 from rpl.simulation import run_program
+from rpl.source import source_from_text
 from rpl.translation import translate_program
 
 TARGET = ir.TargetType("tp")
@@ -94,3 +95,12 @@ def test_data_that_starts_as_predefined_data() -> None:
     )
     result = run_program(program, None, None, "main", None)
     assert [value for _, name, value in result.outputs if name == "do1"] == [True]
+
+
+@pytest.mark.parametrize(("size", "named"), [("40", True), ("x", False)])
+def test_a_corner_that_every_way_sets_the_same_is_a_number_and_no_data(size: str, named: bool) -> None:
+    lines = ("DEF m()", "DECL REAL x", "x=20", f"$APO.CDIS={size}", "PTP {A1 0}", "LIN {X 1} C_DIS", "LIN {X 5}", "END")
+    read = read_sources([source_from_text("m.src", "\n".join(lines))], "krl", Diagnostics())
+    done = translate_program(read, "rapid", "kuka_kr6r900sixx", None, Diagnostics())
+    text = "".join(one.data.decode() for one in done.files)
+    assert ("z40" in text, "rpl_zone" in text) == (named, not named), text

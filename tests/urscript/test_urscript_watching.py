@@ -146,6 +146,12 @@ def test_interrupts_act_while_the_program_waits(handler: str, routine: str) -> N
     same_events("krl", handled(handler, f"{routine}()"), PULSE)
 
 
+@pytest.mark.parametrize("routine", ["WAY", "CORNERS"])
+def test_an_interrupt_acts_although_its_signal_is_gone_when_the_robot_stands(routine: str) -> None:
+    short = cell((12.0, "$IN[1]", True), (12.003, "$IN[1]", False), (30.0, "$IN[2]", True))
+    same_events("krl", handled("LEFT", f"{routine}()"), short)
+
+
 @pytest.mark.parametrize("handler", ["HELD", "BRAKED"])
 @pytest.mark.parametrize("routine", ["WAY", "CORNERS"])
 def test_one_that_takes_time_or_stops_a_move_that_goes_on_is_refused_where_it_is_declared(

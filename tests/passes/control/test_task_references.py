@@ -1,4 +1,4 @@
-"""Arguments of V+ tasks, which are references: in every other language the task sees the same data."""
+"""Arguments of V+ tasks, which are references: what nothing changes meanwhile is a value; what is shared is refused."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from rpl.proof.wiring import with_signal_names
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.refusing import refused
 
 ROBOT = "adept_viper_s650"
 PROGRAM = """.PROGRAM main()
@@ -19,35 +20,49 @@ PROGRAM = """.PROGRAM main()
         total = 0
         most = 3
         SET a = TRANS(1,2,3)
-        EXECUTE 2 beat(most, beats, a)
+        EXECUTE 2 beat(most, a)
         WAIT beats == 3
         SIGNAL 1
         IF ABS(dz.seen-3) < 0.001 THEN
             SIGNAL 2
         END
-        EXECUTE 3 adder({count}, total)
+        EXECUTE 3 adder({count})
         WAIT total == 10
         SIGNAL 3
 .END
-.PROGRAM beat(count, b, place)
+.PROGRAM beat(count, place)
         AUTO REAL i
         FOR i = 1 TO count
             WAIT.EVENT , 0.2
             dz.seen = DZ(place)
-            b = b+1
+            beats = beats+1
         END
 .END
-.PROGRAM adder(count, b)
+.PROGRAM adder(count)
         AUTO REAL i
         FOR i = 1 TO count
             WAIT.EVENT , 0.1
-            b = b+i
+            total = total+i
         END
 .END
 """
+SHARED = """.PROGRAM main()
+        beats = 0
+        EXECUTE 2 beat(3, beats)
+        WAIT beats == 3
+.END
+.PROGRAM beat(count, b)
+        AUTO REAL i
+        FOR i = 1 TO count
+            WAIT.EVENT , 0.2
+            b = b+1
+        END
+.END
+"""
+TARGETS = ["krl", "rapid", "tp", "inform", "urscript"]
 
 
-@pytest.mark.parametrize("target", ["krl", "rapid", "tp", "inform", "urscript"])
+@pytest.mark.parametrize("target", TARGETS)
 @pytest.mark.parametrize("count", ["4", "(most+1)"])
 def test_the_task_sees_what_it_is_given(count: str, target: str) -> None:
     diagnostics = Diagnostics()
@@ -62,9 +77,11 @@ def test_the_task_sees_what_it_is_given(count: str, target: str) -> None:
     assert (run.status, len(run.outputs)) == ("finished", 3)
 
 
-def test_what_is_changed_from_outside_is_named() -> None:
-    diagnostics = Diagnostics()
-    text = PROGRAM.replace("{count}", "4").replace("WAIT total == 10", "most = 4\n        WAIT total == 10")
-    read = read_sources([source_from_text("main.v2", text)], "vplus", diagnostics)
-    translate_program(read, "krl", ROBOT, None, diagnostics)
-    assert "background-task-lost" in {item.code.name for item in diagnostics.of(Severity.LOSS)}
+@pytest.mark.parametrize("target", TARGETS)
+def test_a_variable_that_both_use_is_refused_at_the_start(target: str) -> None:
+    assert ("task-argument-shared", 3) in refused(SHARED, "vplus", target, ROBOT)
+
+
+def test_what_is_changed_from_outside_is_refused() -> None:
+    text = PROGRAM.replace("{count}", "4").replace("WAIT beats == 3", "most = 4\n        WAIT beats == 3")
+    assert ("task-argument-shared", 8) in refused(text, "vplus", "krl", ROBOT)

@@ -51,6 +51,16 @@ def test_data_that_starts_at_zero_is_written_out() -> None:
     }
 
 
+def test_a_stop_reads_nothing() -> None:
+    """A refused statement is a remark with a stop: no variable gets a value for it."""
+    program = read(PROGRAM, "rapid")
+    (module,) = program.modules
+    (routine,) = module.routines
+    refused = replace(routine, body=(ir.Opaque("ask first"), *routine.body))
+    program = replace(program, modules=(replace(module, routines=(refused,)),))
+    assert variable(starting_values(program, context(program, "rapid")), "first").initial is None
+
+
 def test_only_what_may_be_read_first_gets_a_value_in_a_routine() -> None:
     program = read(PROGRAM, "rapid")
     done = starting_values(program, context(program, "rapid"))

@@ -225,7 +225,7 @@ def _mentions(statement: ir.Statement, name: str) -> bool:
         return statements
 
     body((statement,))
-    return found or isinstance(statement, ir.Label | ir.Vendor | ir.Opaque)
+    return found or isinstance(statement, ir.Label | ir.Vendor)
 
 
 def _in_expression(value: ir.Expression, name: str) -> bool:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.legalise.facts.heldtexts import named_by_texts
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
+
+_WORD = re.compile(r"\w+(?:\.\w+)*")
 
 
 def never_called(program: ir.Program) -> set[str]:
@@ -25,9 +28,11 @@ def never_called(program: ir.Program) -> set[str]:
 
 
 def calls_of(program: ir.Program) -> dict[str, set[str]]:
-    """For each routine (folded) those that it calls, connects to interrupts or gives to triggers."""
+    """For each routine (folded) those that it calls, connects to interrupts or gives to triggers, also in a statement
+    that was refused."""
     found: dict[str, set[str]] = {}
     called: set[str] = set()
+    names = {routine.name.lower() for module in program.modules for routine in module.routines}
 
     def look(statement: ir.Statement) -> None:
         match statement:
@@ -35,6 +40,8 @@ def calls_of(program: ir.Program) -> dict[str, set[str]]:
                 called.add(name.lower())
             case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
                 called.add(name.lower())
+            case ir.Opaque(text=text):
+                called.update(names.intersection(_WORD.findall(text.lower())))
         each_expression(statement, call)
 
     def call(expression: ir.Expression) -> None:

@@ -15,12 +15,15 @@ _NONE: Names = frozenset()
 
 def wanted_at_start(routine: ir.Routine, names: Names) -> Names:
     """Those of `names` (folded) that the routine may read before it assigns them."""
-    return _Liveness(routine, names).start
+    return Liveness(routine, names).start
 
 
-class _Liveness:
-    def __init__(self, routine: ir.Routine, names: Names) -> None:
+class Liveness:
+    """`start`: those of `names` (folded) that are wanted where the routine begins; `after`: where it has ended."""
+
+    def __init__(self, routine: ir.Routine, names: Names, after: Names = _NONE) -> None:
         self.names = names
+        self.after = after
         self.labels: dict[str, Names] = {}
         self.loops: list[tuple[Names, Names]] = []  # what is wanted where ExitLoop and NextPass go
         self.raised = _NONE  # what is wanted where an error goes
@@ -29,7 +32,7 @@ class _Liveness:
         changed = True
         while changed:
             before = dict(self.labels)
-            self.start = self.body(routine.body, _NONE)
+            self.start = self.body(routine.body, after)
             for handler in routine.handlers:
                 self.body(handler.body, names)
             changed = before != self.labels
@@ -54,7 +57,9 @@ class _Liveness:
                 return wanted
             case ir.Goto(label=name):
                 return self.labels.get(name.lower(), _NONE)
-            case ir.Return() | ir.Halt(kind="exit" | "cycle"):
+            case ir.Return():
+                return self.after | self.read(*children(statement))
+            case ir.Halt(kind="exit" | "cycle"):
                 return self.read(*children(statement))
             case ir.Raise() | ir.Retry() | ir.TryNext():
                 return self.names
@@ -64,12 +69,20 @@ class _Liveness:
                 return self.loops[-1][1]
             case ir.If(branches=branches, otherwise=otherwise):
                 found = self.body(otherwise, wanted)
-                return found.union(*(self.body(body, wanted) | self.read(condition) for condition, body in branches))
+                return found.union(*(self.branch(condition, body, wanted) for condition, body in branches))
             case ir.Switch(cases=cases, default=default):
                 found = wanted if default is None else self.body(default, wanted)
                 return found.union(self.read(*children(statement)), *(self.body(one.body, wanted) for one in cases))
             case ir.For() | ir.While() | ir.Repeat() | ir.Loop():
                 return self.loop(statement, wanted)
+        return self.other(statement, wanted)
+
+    def branch(self, condition: ir.Expression, body: ir.Body, wanted: Names) -> Names:
+        """A body that runs where the condition holds."""
+        return self.body(body, wanted) | self.read(condition)
+
+    def other(self, statement: ir.Statement, wanted: Names) -> Names:
+        """A statement that sets nothing for certain."""
         found = wanted | self.read(*children(statement))
         for inner in blocks(statement):
             found |= self.body(inner, wanted)

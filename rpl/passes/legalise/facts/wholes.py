@@ -285,7 +285,7 @@ class _Collector:
                 self.procedure(procedure, arguments)
             case ir.Dialog(answer=answer, kind="number"):
                 self.fractional(answer)
-            case ir.Vendor(text=text) | ir.Opaque(text=text):
+            case ir.Vendor(text=text):
                 for word in set(_WORD.findall(text)):
                     self.fractional(ir.Name(word))
         rewrite_parts(statement, self.expression, self.body)

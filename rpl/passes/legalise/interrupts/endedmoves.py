@@ -148,15 +148,16 @@ class EndedMoves:
         return (inside(statement, lambda body: map_body(body, lambda one: self.statement(editor, one))),)
 
     def drive(self, editor: Editor, move: ir.Move) -> ir.Body:
-        """The move, which ends where the condition comes. Where that holds from the start the interrupt has come before
-        and the move is one as any other."""
+        """The move, which ends where the condition comes, and the action behind it: the signal may be gone when the
+        robot stands. Where the condition holds from the start the interrupt has come before and the move is one as any
+        other."""
         if not isinstance(move.blend, ir.BlendStop | None):
             self.context.diagnostics.report(CORNER, move.origin)
         hit = editor.temporary("hit", ir.BoolType())
         bare = replace(move, origin=tidy(move.origin))
         search = ir.Search(self.watch.declared.condition, stop="stop", hit=hit)
         ended = replace(bare, search=search, blend=ir.BlendStop())
-        tried: ir.Body = (ended, ir.If(((hit, (self.look(bare),)),)))
+        tried: ir.Body = (ended, ir.If(((hit, self.acts()),)))
         told = self.leaving(move, (self.look(move),))
         return (*told, *self.leaving(bare, (ir.If(((self.comes(), tried),), (bare,)),), True))
 
@@ -237,14 +238,15 @@ class EndedMoves:
 
     def looking(self) -> ir.Statement:
         """The interrupt, unless it is acting."""
-        was, condition = ir.Name(self.watch.was), self.watch.declared.condition
-        acts: list[ir.Statement] = [ir.Assign(was, _TRUE)]
-        if self.watch.declared.once:
-            acts.insert(0, ir.Assign(ir.Name(self.watch.armed), _FALSE))
+        condition = self.watch.declared.condition
+        gone = (negation(condition), (ir.Assign(ir.Name(self.watch.was), _FALSE),))
+        return ir.If(((ir.Binary("cand", condition, self.comes()), self.acts()), gone))
+
+    def acts(self) -> ir.Body:
+        """The interrupt has come."""
         action = self.watch.declared.action
-        acts.append(replace(action, origin=tidy(action.origin)))
-        gone = (negation(condition), (ir.Assign(was, _FALSE),))
-        return ir.If(((ir.Binary("cand", condition, self.comes()), tuple(acts)), gone))
+        done = (ir.Assign(ir.Name(self.watch.was), _TRUE), replace(action, origin=tidy(action.origin)))
+        return (ir.Assign(ir.Name(self.watch.armed), _FALSE), *done) if self.watch.declared.once else done
 
     def data(self) -> tuple[ir.Variable, ...]:
         if "rpl_left" not in self.names:

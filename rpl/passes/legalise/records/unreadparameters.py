@@ -68,7 +68,7 @@ def _unread(routine: ir.Routine, calls: list[_Call]) -> frozenset[int]:
     """The places of parameters that can go."""
     seen = {node.id.lower() for node in walk(routine) if isinstance(node, ir.Name)}
     seen |= {node.counter.lower() for node in walk(routine) if isinstance(node, ir.For)}
-    if any(isinstance(node, ir.Vendor | ir.Opaque | ir.VendorValue) for node in walk(routine)):
+    if any(isinstance(node, ir.Vendor | ir.VendorValue) for node in walk(routine)):
         return frozenset()
     if any(argument.name is not None for call in calls for argument in call.arguments):
         return frozenset()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.legalise.interrupts.tasks.taskreferences import SHARED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 from rpl.passes.legalise.tasks.secondstarts import SURELY
 
@@ -60,5 +61,6 @@ TASKS = (
     Refusal("a critical section, where there are other tasks", CRITICAL, (ir.Critical,), _critical),
     Refusal("an operation on another task that the target has not", TASK, (ir.TaskControl,), _task),
     Refusal("a task that never ends, started once more beside itself", SURELY),
+    Refusal("an argument of a task that the task or what starts it may change", SHARED),
     Refusal("tasks that wait for each other at a point", MEETING, (ir.Meet,), _meeting),
 )

@@ -12,7 +12,9 @@ from rpl.diagnostics import Code
 from rpl.passes.legalise.context import Context
 from rpl.source import Comment
 
-__all__ = ["left_out", "stopped"]
+__all__ = ["is_left_out", "left_out", "stopped"]
+
+_LEFT_OUT = " left out, "
 
 
 def stopped(statement: ir.Statement, code: Code, context: Context, **arguments: object) -> ir.Opaque:
@@ -22,7 +24,17 @@ def stopped(statement: ir.Statement, code: Code, context: Context, **arguments: 
 
 
 def left_out(statement: ir.Statement, why: str) -> ir.Nothing:
-    """A statement that says nothing any more where the program has stopped before: a remark."""
-    (text, *_) = (statement.origin.text.strip() or type(statement).__name__).splitlines()
-    remark = Comment(f" left out, {why}: {text}")
+    """A statement that says nothing any more where the program has stopped before: a remark, where the source says
+    it."""
+    said = statement.origin.text.strip().splitlines()
+    if not said:
+        return ir.Nothing(origin=statement.origin)
+    remark = Comment(f"{_LEFT_OUT}{why}: {said[0]}")
     return ir.Nothing(origin=replace(statement.origin, comments=(*statement.origin.comments, remark)))
+
+
+def is_left_out(statement: ir.Statement) -> bool:
+    """Is it the remark of `left_out` and nothing else?"""
+    if not isinstance(statement, ir.Nothing) or len(statement.origin.comments) != 1:
+        return False
+    return statement.origin.comments[0].text.startswith(_LEFT_OUT)

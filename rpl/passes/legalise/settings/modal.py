@@ -7,6 +7,8 @@ the same measure (speeds in percent of the axes, blends in percent) is mapped by
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -72,10 +74,9 @@ def _real(value: float) -> ir.Expression:
 
 @dataclass(slots=True)
 class _State:
-    """Names of the generated data, and which of them are needed."""
+    """Names of the generated data."""
 
     names: dict[str, str] = field(default_factory=dict)
-    read: set[str] = field(default_factory=set)
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
 
@@ -132,16 +133,16 @@ class _Explicit:
 
     # ---- generated data
 
-    def name(self, kind: str, written: bool = False) -> ir.Expression:
+    def name(self, kind: str) -> ir.Expression:
         if kind not in self.state.names:
             self.state.names[kind] = self.context.fresh(f"rpl_{kind}")
-        if not written:
-            self.state.read.add(kind)
         return ir.Name(self.state.names[kind])
 
     def without_dead_settings(self, program: ir.Program) -> ir.Program:
         """Data that no move reads, because every move names constants, is neither set nor declared."""
-        dead = {name for kind, name in self.state.names.items() if kind not in self.state.read}
+        named = Counter(node.id for node in walk(*program.modules) if isinstance(node, ir.Name))
+        named.subtract(_set_in_parts(program))
+        dead = {name for name in self.state.names.values() if not named[name]}
         self.state.names = {kind: name for kind, name in self.state.names.items() if name not in dead}
 
         def body(statements: ir.Body) -> ir.Body:
@@ -227,7 +228,7 @@ class _Explicit:
             self.report_once(DROPPED, statement, name, name=name.replace("_", " "))
             return [ir.Nothing(origin=statement.origin)]
         kind, component = _MODAL[name]
-        place = ir.Field(self.name(kind, written=True), component)
+        place = ir.Field(self.name(kind), component)
         made = [ir.Assign(place, _scaled(value, _FACTOR.get(name, 1.0)), origin=statement.origin)]
         if name == "base" and UNIT in self.made:  # it was perhaps on a mechanism
             made.append(ir.Assign(replace(place, name="fixed"), ir.BoolLiteral(True), origin=_later(statement)))
@@ -235,7 +236,7 @@ class _Explicit:
             later = replace(statement.origin, comments=())
             for other, factor in _ZONE_PROPORTIONS[1:]:
                 scaled = _scaled(value, _FACTOR.get(name, 1.0) * factor)
-                made.append(ir.Assign(ir.Field(self.name(kind, written=True), other), scaled, origin=later))
+                made.append(ir.Assign(ir.Field(self.name(kind), other), scaled, origin=later))
         return list(made)
 
     def carried(self, statement: ir.Assign, value: ir.Expression) -> list[ir.Statement]:
@@ -246,7 +247,7 @@ class _Explicit:
             return [ir.Nothing(origin=statement.origin)]
         word = value.value
         self.report_once(UNIT_NAME, statement, word, unit=word)
-        frame = self.name("frame", written=True)
+        frame = self.name("frame")
         return [
             ir.Assign(ir.Field(frame, "fixed"), ir.BoolLiteral(False), origin=statement.origin),
             ir.Assign(ir.Field(frame, "unit"), ir.TextLiteral(word), origin=_later(statement)),
@@ -387,6 +388,14 @@ def _settings_made(program: ir.Program) -> set[str]:
         for node in walk(module)
         if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)
     }
+
+
+def _set_in_parts(program: ir.Program) -> Iterator[str]:
+    """Data of which a statement sets a component, once for each."""
+    for node in walk(*program.modules):
+        match node:
+            case ir.Assign(target=ir.Field(base=ir.Name(id=name))):
+                yield name
 
 
 def says(value: ir.Expression, word: str) -> bool:

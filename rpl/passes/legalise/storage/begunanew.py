@@ -1,8 +1,8 @@
 """Variables that begin with their first value at each start of the program, for targets that keep them in data lists:
 there the last value stays, so the program sets them when it starts.
 
-Values that the source keeps too (persistent data) stay as the last run left them. The value in the list is written as
-well: it is what the data begins with.
+Values that the source keeps too (persistent data) stay as the last run left them, and so does what the program sets
+before it looks at it. The value in the list is written as well: it is what the data begins with.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.firstreads import read_first
+from rpl.passes.legalise.facts.liveness import Names
 from rpl.passes.legalise.facts.usage import base_name, usage_of
 from rpl.passes.legalise.rewriting.startdata import INITIALISE, entries_of
 from rpl.passes.legalise.stages import legalising
@@ -23,17 +25,18 @@ _INLINE = 8
 
 @legalising(unless=lambda context: DataRule.LISTS not in context.capabilities.data.rules)
 def begun_anew(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets with data lists, and variables that the program assigns. A task that does not move the robot
-    sets its own."""
-    assigned = usage_of(program).assigned
+    """Only for targets with data lists, and variables that the program assigns and may read before that. A task that
+    does not move the robot sets its own."""
     entries = entries_of(program)
     background = {name for task in program.tasks if task.kind != "motion" for name in task.modules}
+    beside = [one.name for module in program.modules if module.name in background for one in module.routines]
+    assigned = _assigned(program)
+    begins = read_first(program, assigned, entries, beside) if assigned else assigned
     modules: list[ir.Module] = []
     first: list[ir.Statement] = []
     for module in program.modules:
-        own = () if module.name in background else _assignments(module, assigned)
-        holds = {routine.name.lower() for routine in module.routines}
-        if own and (len(own) > _INLINE or not entries <= holds):
+        own = () if module.name in background else _assignments(module, begins)
+        if own and (len(own) > _INLINE or not (_seen_everywhere(module, own) or entries <= _holds(module))):
             name = context.fresh(INITIALISE)
             routine = ir.Routine(name, body=own, scope="global")
             module = replace(module, routines=(*module.routines, routine))
@@ -53,19 +56,39 @@ def begun_anew(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
-def _assignments(module: ir.Module, assigned: set[str]) -> ir.Body:
-    """What gives the module's variables their first values."""
-    begins = {
-        one.name.lower()
+def _assigned(program: ir.Program) -> Names:
+    """Variables of modules (folded) that statements assign, or that calls may change."""
+    modules = tuple(replace(module, declarations=()) for module in program.modules)
+    data = (one for module in program.modules for one in module.declarations if isinstance(one, ir.Variable))
+    named = {one.name.lower() for one in data if one.storage == "variable"}
+    return frozenset(named & usage_of(replace(program, modules=modules)).assigned)
+
+
+def _holds(module: ir.Module) -> set[str]:
+    return {routine.name.lower() for routine in module.routines}
+
+
+def _seen_everywhere(module: ir.Module, assigns: ir.Body) -> bool:
+    """Can routines of other modules set these data of the module?"""
+    places = {base_name(one.target) for one in assigns if isinstance(one, ir.Assign)}
+    return all(
+        one.scope in ("task", "global")
         for one in module.declarations
-        if isinstance(one, ir.Variable) and one.storage == "variable" and one.name.lower() in assigned
+        if isinstance(one, ir.Variable) and one.name.lower() in places
+    )
+
+
+def _assignments(module: ir.Module, begins: Names) -> ir.Body:
+    """What gives those of the module's variables their first values."""
+    here = {
+        one.name.lower() for one in module.declarations if isinstance(one, ir.Variable) and one.storage == "variable"
     }
     made: list[ir.Statement] = []
     for one in module.declarations:
         match one:
-            case ir.Variable(name=name, initial=initial) if initial is not None and name.lower() in begins:
+            case ir.Variable(name=name, initial=initial) if initial is not None and name.lower() in begins & here:
                 made.append(ir.Assign(ir.Name(name), initial))
-            case ir.Initialise(assign=assign) if (base_name(assign.target) or "").lower() in begins:
+            case ir.Initialise(assign=assign) if (base_name(assign.target) or "").lower() in begins & here:
                 made.append(replace(assign, origin=NOWHERE))
     return tuple(made)
 

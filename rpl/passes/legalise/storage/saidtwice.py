@@ -1,5 +1,6 @@
 """What one statement of the source became twice in a row is written once: a language sets the speed of six axes one by
-one where another has one number for all. What the source itself says twice stays.
+one where another has one number for all, and a refused statement of several parts is one stop or one remark. What the
+source itself says twice stays.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.stopping import is_left_out
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
@@ -18,7 +20,8 @@ _CHANGING = (ir.Call, ir.Builtin, ir.VendorValue, ir.Signal, ir.System)
 
 @legalising()
 def said_once(program: ir.Program, context: Context) -> ir.Program:
-    """The program without assignments that the one in front of them, of the same statement of the source, has made."""
+    """The program without assignments that the one in front of them, of the same statement of the source, has made, and
+    without what is left of a statement behind its stop."""
     return edit_all(program, _body)
 
 
@@ -26,6 +29,8 @@ def _body(body: ir.Body) -> ir.Body:
     done: list[ir.Statement] = []
     for statement in body:
         inner = rewrite_parts(statement, lambda expression: expression, _body)
+        while isinstance(inner, ir.Opaque) and done and isinstance(done[-1], ir.Trigger) and _of_one(done[-1], inner):
+            done.pop()  # an action of a refused move is refused with it
         if not (done and _again(done[-1], inner)):
             done.append(inner)
     return body if len(done) == len(body) and all(map(_same, done, body)) else tuple(done)
@@ -35,10 +40,20 @@ def _same(one: ir.Statement, other: ir.Statement) -> bool:
     return one is other
 
 
+def _of_one(first: ir.Statement, second: ir.Statement) -> bool:
+    """Are both made of one statement of the source?"""
+    one, other = first.origin, second.origin
+    return one.source is not None and one.source is other.source and one.start == other.start
+
+
 def _again(first: ir.Statement, second: ir.Statement) -> bool:
     """Does the second do what the first has just done? Nothing then lies between that could have changed the place."""
-    if not isinstance(first, ir.Assign) or first != second or second.origin.comments:
+    if is_left_out(second):
+        return _of_one(first, second) and (isinstance(first, ir.Opaque) or is_left_out(first))
+    if first != second or second.origin.comments:
         return False
+    if not isinstance(first, ir.Assign) or not isinstance(second, ir.Assign):
+        return isinstance(first, ir.Opaque) and _of_one(first, second)
     if first.origin.source is not second.origin.source or first.origin.start != second.origin.start:
         return False
     place = [node for node in walk(first.target) if isinstance(node, ir.Name)]
