@@ -65,20 +65,40 @@ def _variables(routine: ir.Routine) -> bool:
 
 
 def _guarded(editor: Editor, routine: ir.Routine, facts: Activations, again: set[int]) -> ir.Routine:
-    """The routine with stops in place of calls that would activate one of `again` a second time."""
+    """The routine with stops in place of calls that would activate one of `again` a second time. What else has become
+    of a statement with such a call goes, if that is only values."""
 
     def change(statement: ir.Statement) -> ir.Body:
         callee = next(filter(comes_back, called(statement, editor.scope)), None)
         if callee is not None:
             return (stopped(statement, RECURSION, editor.context, name=callee.name),)
-        return (inside(statement, lambda inner: map_body(inner, change)),)
+        return (inside(statement, each),)
+
+    def each(body: ir.Body) -> ir.Body:
+        return _whole(map_body(body, change))
 
     def comes_back(callee: ir.Routine) -> bool:
         return id(callee) in again and id(routine) in facts.reached({id(callee)})
 
     if id(routine) not in facts.recursive:
         return routine
-    return edit_bodies(routine, lambda body: map_body(body, change))
+    return edit_bodies(routine, each)
+
+
+def _whole(body: ir.Body) -> ir.Body:
+    """Without the values that a stop has no use for: those of the statement that it stands for."""
+    stops = [one.origin for one in body if isinstance(one, ir.Opaque) and one.origin.source is not None]
+    done = body
+    for stop in stops:
+        parts = [one for one in body if (one.origin.source, one.origin.start) == (stop.source, stop.start)]
+        if all(isinstance(one, ir.Opaque | ir.Return) or _sets_name(one) for one in parts):
+            gone = {id(one) for one in parts if _sets_name(one) and not one.origin.comments}
+            done = tuple(one for one in done if id(one) not in gone)
+    return done
+
+
+def _sets_name(statement: ir.Statement) -> bool:
+    return isinstance(statement, ir.Assign) and isinstance(statement.target, ir.Name)
 
 
 # ---- variables
