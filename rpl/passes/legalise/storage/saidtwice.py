@@ -5,6 +5,9 @@ source itself says twice stays.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import takewhile
+
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
@@ -27,10 +30,11 @@ def said_once(program: ir.Program, context: Context) -> ir.Program:
 
 def _body(body: ir.Body) -> ir.Body:
     done: list[ir.Statement] = []
-    for statement in body:
+    for at, statement in enumerate(body):
         inner = rewrite_parts(statement, lambda expression: expression, _body)
-        while isinstance(inner, ir.Opaque) and done and isinstance(done[-1], ir.Trigger) and _of_one(done[-1], inner):
-            done.pop()  # an action of a refused move is refused with it
+        if isinstance(inner, ir.Opaque) and not any(isinstance(one, ir.Move) for one in _rest(body, at)):
+            while done and isinstance(done[-1], ir.Trigger) and _of_one(done[-1], inner):
+                done.pop()  # an action of a refused move is refused with it
         if not (done and _again(done[-1], inner)):
             done.append(inner)
     return body if len(done) == len(body) and all(map(_same, done, body)) else tuple(done)
@@ -44,6 +48,11 @@ def _of_one(first: ir.Statement, second: ir.Statement) -> bool:
     """Are both made of one statement of the source?"""
     one, other = first.origin, second.origin
     return one.source is not None and one.source is other.source and one.start == other.start
+
+
+def _rest(body: ir.Body, at: int) -> Iterator[ir.Statement]:
+    """What follows there of the same statement of the source."""
+    return takewhile(lambda one: _of_one(body[at], one), body[at + 1 :])
 
 
 def _again(first: ir.Statement, second: ir.Statement) -> bool:
