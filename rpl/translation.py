@@ -114,10 +114,10 @@ def translate_program(
 
     def translated(program: ir.Program, stretches: tuple[Stretch, ...]) -> Translation:
         context = Context(source, target_name, capabilities, collector, first, second)
-        context.registers = registers or {}
+        context.registers, context.stretches, context.before = registers or {}, stretches, len(collector)
         context.analog = {one: analog_ranges(program, one, analog) for one in dict.fromkeys(languages)}
         whole = with_given(program, given) if given and source != target_name else program
-        return _translated(whole, stretches, context, second, own, templates or {})
+        return _translated(whole, context, second, own, templates or {})
 
     if source == target_name:
         return at_any_depth(lambda: translated(read.program, ()), collector)
@@ -146,7 +146,6 @@ def _by_stretches(
 
 def _translated(
     whole: ir.Program,
-    stretches: tuple[Stretch, ...],
     context: Context,
     robot: RobotModel | None,
     options: Mapping[str, str],
@@ -160,7 +159,7 @@ def _translated(
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
         program, legal = rename(legalise(whole, context, target.passes()), capabilities.names)
-        program = settled(program, stretches, collector.items[before:])
+        program = settled(program, context.stretches, collector.items[before:])
         program = program if target.rows else expanded(program)
         renamed = renamed_twice(hiding, legal)
     else:

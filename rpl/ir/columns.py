@@ -278,7 +278,8 @@ def by_row(function: Callable[[*_T], _R]) -> Callable[[*_T], _R]:
         if stretch is None:
             return function(*arguments)
         rows = zip(*(_rows(one, stretch) for one in arguments), strict=True)
-        return cast(_R, _gathered(stretch, [function(*cast(tuple[*_T], row)) for row in rows]))
+        alone = cast(Callable[..., object], function)
+        return cast(_R, _gathered(stretch, [alone(*row) for row in rows]))
 
     return lifted
 
@@ -308,6 +309,6 @@ def _gathered(stretch: Stretch, results: list[object]) -> object:
     if type(first) is tuple:
         columns = zip(*cast(list[tuple[object, ...]], results), strict=True)
         return tuple(_gathered(stretch, list(column)) for column in columns)
-    if any(type(one) is not float for one in results):
+    if set(map(type, results)) != {float}:
         raise LooksInsideError(stretch)
     return _number(stretch, np.array(results, dtype=np.float64))

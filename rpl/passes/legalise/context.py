@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
+from rpl.ir.columns import Stretch
 from rpl.passes.analog import AnalogRanges
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
@@ -69,7 +70,8 @@ class Context:
     `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes (types beside);
     `registers`: the numbers that an earlier translation gave, to be honoured. `signal_groups`: groups of signals that
     had a name and are written by their numbers, and signals of a number that are written by their names. `analog`: what
-    is said of analogue signals, by language."""
+    is said of analogue signals, by language. `stretches`: of runs, for each of which one move stands in the program;
+    `before`: the reports that were there in front of the passes."""
 
     source: str
     target: str
@@ -83,6 +85,8 @@ class Context:
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
     signal_groups: dict[str, ir.Signal] = field(default_factory=dict)
     analog: Mapping[str, AnalogRanges] = field(default_factory=dict)
+    stretches: tuple[Stretch, ...] = ()
+    before: int = 0
 
     @property
     def foreign(self) -> bool:

@@ -13,8 +13,11 @@ from functools import cache
 
 from rpl import ir
 from rpl.errors import InternalError
+from rpl.ir.columns import LooksInsideError
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.moments import Moment, moved_back, note
+from rpl.passes.stretches import settled
 
 Run = Callable[[ir.Program, Context], ir.Program]
 Unless = Callable[[Context], object]  # its truth counts
@@ -132,19 +135,28 @@ def _among(stage: Stage, own: tuple[Placed, ...]) -> tuple[Pass, ...]:
 
 
 def run_passes(passes: Iterable[Pass], program: ir.Program, context: Context) -> ir.Program:
-    """The program behind the passes, in their order; those that have nothing to do are not called."""
-    kinds = Kinds()
+    """The program behind the passes, in their order; those that have nothing to do are not called. Where one looks
+    inside of a stretch of moves, it goes on with all moves behind the last pass that has left the stretches whole."""
+    kinds, moments = Kinds(), list[Moment]()
     held, of = frozenset[str](), None
-    for one in passes:
-        if not one.needed(context):
-            continue
-        if one.sees:
-            if of is not program:
-                held, of = kinds.of(program), program
-            if one.sees.isdisjoint(held):
-                continue
-        program = one.run(program, context)
-    return program
+    todo, at = tuple(passes), 0
+    while True:
+        try:
+            for at, one in enumerate(todo[at:], at):  # noqa: B020  # goes on where it was
+                if not one.needed(context):
+                    continue
+                if one.sees:
+                    if of is not program:
+                        held, of = kinds.of(program), program
+                    if one.sees.isdisjoint(held):
+                        continue
+                if context.stretches:
+                    note(moments, at, program, context)
+                program = one.run(program, context)
+            settled(program, context.stretches, context.diagnostics.items[context.before :])
+            return program
+        except LooksInsideError:
+            at, program = moved_back(moments, context)
 
 
 def kinds_of(node: object) -> tuple[str, ...]:

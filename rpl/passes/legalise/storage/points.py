@@ -7,6 +7,7 @@ move. Each routine numbers its own points: as an earlier translation did, as the
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import count
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -55,11 +56,12 @@ class Points:
     made: list[ir.Variable] = field(default_factory=list)
     found: dict[object, ir.Name] = field(default_factory=dict)
     used: set[int] = field(default_factory=set)
+    lowest: int = 0  # all numbers below are taken in the routine
     routine: str = ""
     homes: dict[int, tuple[ir.Variable, list[str]]] = field(default_factory=dict)  # who has a copy, by declaration
 
     def begin(self, routine: ir.Routine) -> None:
-        self.made, self.found, self.used, self.routine = [], {}, set(), routine.name.lower()
+        self.made, self.found, self.used, self.lowest, self.routine = [], {}, set(), 0, routine.name.lower()
 
     def is_taught(self, declaration: ir.Variable, scope: Scope) -> bool:
         """Does the variable (or each element of an array) hold one position written out in constants all the time?"""
@@ -147,8 +149,12 @@ class Points:
         for wanted in (given, own_number(label, bank)):
             if wanted is not None and wanted not in self.used:
                 return wanted
-        reserved = self.used | set(earlier.values()) | self.own_numbers()
-        return next(number for number in range(bank.first, bank.first + len(reserved) + 1) if number not in reserved)
+        reserved = (self.used, set(earlier.values()), self.own_numbers())
+        free = (
+            number for number in count(max(bank.first, self.lowest)) if not any(number in some for some in reserved)
+        )
+        self.lowest = next(free)
+        return self.lowest
 
     def own_numbers(self) -> set[int]:
         """Numbers that names of the program say for themselves."""
