@@ -415,67 +415,6 @@ def test_actions_on_a_path_with_a_computed_end_stand_behind_computed_points() ->
     assert "path-event-point" in codes(diagnostics, Severity.WARNING)
 
 
-LOOKED_FOR = """DEF one()
-DECL FRAME F
-PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
-TRIGGER WHEN DISTANCE=1 DELAY=-200 DO $OUT[1]=TRUE
-TRIGGER WHEN DISTANCE=1 DELAY=-100 DO $OUT[2]=TRUE
-PTP {A1 30, A2 -90, A3 90, A4 0, A5 60, A6 0}
-TRIGGER WHEN DISTANCE=1 DELAY=-50 DO $OUT[1]=FALSE
-TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[2]=FALSE
-TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[3]=TRUE
-PTP {A1 0, A2 -90, A3 90, A4 0, A5 60, A6 0}
-PTP {A1 10, A2 -80, A3 90, A4 0, A5 60, A6 0}
-WAIT SEC 0.1
-$OUT[4]=TRUE
-F=$POS_ACT
-F.Z=F.Z-50
-TRIGGER WHEN DISTANCE=1 DELAY=-50 DO $OUT[5]=TRUE
-PTP F
-$OUT[6]=TRUE
-END
-"""
-
-
-def test_actions_before_the_end_of_a_joint_move_are_done_while_it_goes_on() -> None:
-    """The times are those of the source but for some looks."""
-    jobs, diagnostics, on = jobs_of("krl", LOOKED_FOR, "kuka_kr6r900sixx")
-    assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
-    assert on == {3, 4, 5, 6}
-    assert "path-event-looked-for" in codes(diagnostics, Severity.WARNING)
-    lines = jobs["ONE"]
-    begun = [at for at, line in enumerate(lines) if line.endswith("NWAIT")]
-    assert [lines[at].split()[0] for at in begun] == ["MOVJ", "MOVJ", "MOVJ"]
-    assert not [line for line in lines if line.count("NWAIT") > 1]
-    assert lines.count("CWAIT") == 3
-
-
-IN_CORNERS = """MODULE M
-  PERS tooldata t1:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
-  CONST robtarget p0:=[[400,-100,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
-  CONST robtarget p1:=[[400,100,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
-  VAR triggdata on1;
-  VAR triggdata off1;
-  PROC main()
-    TriggIO on1, 20 \\DOp:=do1, 1;
-    TriggEquip off1, 30, 0.1 \\DOp:=do1, 0;
-    MoveJ p0, v500, fine, t1;
-    TriggJ p1, v200, on1, fine, t1;
-    TriggJ p0, v200, off1, z10, t1;
-    TriggJ p1, v200, on1, z10, t1;
-    MoveL p0, v200, fine, t1;
-    SetDO do2,1;
-  ENDPROC
-ENDMODULE
-"""
-
-
-def test_a_corner_stays_one_where_the_program_looks_for_an_action_before_it() -> None:
-    jobs, diagnostics, on = jobs_of("rapid", IN_CORNERS, "abb_irb120_3_58")
-    assert not diagnostics.of(Severity.LOSS) and on == {1, 2}
-    assert sum(line.endswith("PL=1 NWAIT") for line in jobs["MAIN"]) == 2
-
-
 def test_where_the_robot_is_with_a_tool_of_its_data() -> None:
     text = """MODULE one
 PERS tooldata tPen:=[TRUE,[[0,0,100],[1,0,0,0]],[0.5,[0,0,50],[1,0,0,0],0,0,0]];

@@ -15,7 +15,6 @@ from rpl.ir.walk import walk
 from rpl.passes.capabilities import TriggerRule, Watched
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import base_name
-from rpl.passes.legalise.records.pathwatches import at_present_speed, ramp_s
 from rpl.passes.legalise.rewriting.beside import Beside, local_names, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -34,12 +33,8 @@ NOT_WATCHED = code(
     "path-event-lost",
     Severity.LOSS,
     "an action on the path cannot be done by a task that watches the tool: {reason}",
+    "drive straight there, or do it where the robot stands",
     stops=True,
-)
-ESTIMATED = code(
-    "path-event-estimated",
-    Severity.WARNING,
-    "a time before the end of a move of the axes is estimated from how fast the tool comes",
 )
 _EVENT = "rpl_on_path"
 
@@ -156,9 +151,12 @@ class _Events:
             return f"{trigger.action.name} moves the robot"
         if move.kind not in ("joint", "linear", "circular") or move.relative:
             return f"the move is a {'relative' if move.relative else move.kind} one"
-        timed = trigger.delay is not None and _number(trigger.delay) != 0.0
-        if timed and _number(trigger.delay) is None:
+        delay = 0.0 if trigger.delay is None else _number(trigger.delay)
+        if delay is None:
             return "its time is computed"
+        on_way = trigger.distance is not None and _number(trigger.distance) != 0.0
+        if move.kind == "joint" and (on_way or delay < 0.0):
+            return "it is on the way of a joint move"
         return ""
 
     # ---- only what comes when the robot stands already
@@ -271,9 +269,6 @@ class _Events:
         """Waits until the tool is that far (or that time) before the end; at a corner its middle is the end."""
         moving, left = self.beside.moving_name(), _distance(way.end)
         size = ir.RealLiteral(0.0) if at_point else _positive(distance)  # of an arc: measured straight (arcdistances)
-        if delay < 0.0 and way.move.kind == "joint":
-            self.context.diagnostics.report(ESTIMATED, way.move.origin)
-            return self.estimated(way, size, -delay)
         if delay < 0.0:
             size = _sum(size, self.braking(way, -delay, before))
         steps: list[ir.Statement] = []
@@ -297,22 +292,6 @@ class _Events:
             ),
         ]
         return steps
-
-    def estimated(self, way: _Way, size: ir.Expression, seconds: float) -> list[ir.Statement]:
-        """Looks in each cycle how much nearer the tool has come, until it has that time left at this speed."""
-        was, now, left = ir.Name("was"), ir.Name("now"), _distance(way.end)
-        ramp = ramp_s(way.move, self.context)
-        seconds = seconds if way.ends_in is not None else at_present_speed(seconds, ramp)
-        cycles = ir.RealLiteral(_short(seconds / self.context.capabilities.io.poll_s))
-        near = _sum(size, ir.Binary("*", ir.Binary("-", was, now), cycles))
-        comes = ir.Binary("cor", ir.Binary("<=", now, near), ir.Unary("not", ir.Name(self.beside.moving_name())))
-        looks = (
-            ir.Wait(_seconds(self.context.capabilities.io.poll_s)),
-            ir.Assign(now, left),
-            ir.If(((comes, (ir.ExitLoop(),)),)),
-            ir.Assign(was, now),
-        )
-        return [ir.Assign(was, left), ir.Loop(looks)]
 
     def braking(self, way: _Way, seconds: float, before: list[ir.Statement]) -> ir.Expression:
         """The way in mm that is left that time before the end: the move brakes evenly, or goes on through a corner."""

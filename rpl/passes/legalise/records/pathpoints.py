@@ -18,10 +18,10 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, usage_of
 from rpl.passes.legalise.records.arcdistances import ends_known, written
 from rpl.passes.legalise.records.pathevents import in_base
-from rpl.passes.legalise.records.pathwatches import watched
 from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.stages import legalising
@@ -37,6 +37,13 @@ SMALLER = code(
     "path-event-corner",
     Severity.WARNING,
     "an action on the path is {rest:.1f} mm before a corner of {corner:.1f} mm, which may be cut to half of that way",
+)
+ON_JOINT_MOVE = code(
+    "path-event-on-joint-move",
+    Severity.LOSS,
+    "an action comes before the end of a joint move, which the target cuts nowhere",
+    "drive straight there, or do it at the end",
+    stops=True,
 )
 _MOVED = {"base": "offset", "tool": "tool_offset"}  # what a relative move does to the place where it begins
 _ORDER = "; what is counted from its start is done before what is counted from its end"
@@ -129,8 +136,12 @@ class _Points:
         if not plain_move:
             told = move.kind == "circular" and written(move, given, self.editor, self.unchanged)
             known = told and self.is_known(move, [])
-            looked = None if known else watched(move, given, goes_on, self.editor, self.unchanged, self.temporary)
-            return (*before, move) if looked is None else looked
+            refused = [] if known else [one for one in given if self.on_joint_move(one, move)]
+            if not refused:
+                return (*before, move)
+            stops = (stopped(one, ON_JOINT_MOVE, self.context) for one in refused)
+            others = tuple(one for one in given if one not in refused)
+            return (*stops, *others, replace(move, triggers=()))
         events = [self.event(one, move) for one in given]
         apart = sorted((one for one in events if one is not None), key=lambda one: one.order)
         unmeasured = any(_delayed(one) for one in given) and (move.speed is None or move.speed.path is None)
@@ -204,6 +215,16 @@ class _Points:
     @property
     def corner(self) -> float:
         return self.context.capabilities.motion.cut_from_mm
+
+    def on_joint_move(self, trigger: ir.Trigger, move: ir.Move) -> bool:
+        """Does it come on the way of a joint move, before its end?"""
+        if move.kind != "joint" or move.relative is not None or move.search is not None or move.concurrent:
+            return False
+        way, delay = (
+            0.0 if one is None else constant_number(plain(one), self.editor.scope, self.unchanged)
+            for one in (trigger.distance, trigger.delay)
+        )
+        return way is None or (trigger.reference != "start" and delay is not None and (way < 0.0 or delay < 0.0))
 
     def is_known(self, move: ir.Move, events: list[_Event]) -> bool:
         """Are both ends and the places constants that the writer sees as such?"""

@@ -10,7 +10,8 @@ from rpl.passes.legalise.interrupts.identities import ASKED, ORDERED, SEVERAL
 from rpl.passes.legalise.places.nextmove.queuedwaits import PAUSED_TIMED
 from rpl.passes.legalise.records.arcdistances import STRAIGHT as COMPUTED_ON_ARC
 from rpl.passes.legalise.records.arcdistances import TIMED as TIMED_ON_ARC
-from rpl.passes.legalise.records.pathwatches import COMPUTED as COMPUTED_ON_JOINT_MOVE
+from rpl.passes.legalise.records.pathevents import NOT_WATCHED as NO_PATH_TASK
+from rpl.passes.legalise.records.pathpoints import ON_JOINT_MOVE
 from rpl.passes.legalise.records.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 from rpl.passes.legalise.source.rates import LOST as RATE
@@ -62,7 +63,8 @@ MOTION = (
     Refusal("a motion that goes on before the routine has ended that stopped it", EARLY),
     Refusal("a move that a condition ends", SEARCH, (ir.Move,), _search),
     Refusal("an action at a place of an arc that the run decides", COMPUTED_ON_ARC),
-    Refusal("an action at a place of a joint move that the run decides", COMPUTED_ON_JOINT_MOVE),
+    Refusal("an action on the way of a joint move, where moves are cut at places", ON_JOINT_MOVE),
+    Refusal("an action on the path that no task beside the move can do", NO_PATH_TASK),
     Refusal("an action a time before or behind a place on an arc", TIMED_ON_ARC),
     Refusal("a time that the program takes while the robot pauses", PAUSED_TIMED),
     Refusal("a motion at a given speed whose loop counts its passes or does other work", RATE),
