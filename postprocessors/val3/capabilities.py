@@ -42,7 +42,7 @@ CAPABILITIES = Capabilities(
         )
     ),
     procedures=frozenset(),
-    system_variables=tables.words("null_frame world override time moving actual_pose"),
+    system_variables=tables.words("null_frame world override time timer moving actual_pose"),
     operators=frozenset((*tables.OPERATORS.binary, *tables.OPERATORS.unary, "div")),
     types=frozenset((*tables.TYPES, "ArrayType")),
     names=NameRules(
@@ -74,6 +74,7 @@ CAPABILITIES = Capabilities(
             "group_in": "gi",
             "group_out": "go",
         },
+        timers=99,  # numbers that the passes choose from: each is a variable of the program
         wait_timeout=True,
         waits_at_rest=False,
         poll_s=0.004,

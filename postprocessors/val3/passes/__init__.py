@@ -5,9 +5,11 @@ from __future__ import annotations
 from rpl.passes.legalise.stages import Placed
 
 from .pulses import pulses_as_tasks
+from .timers import timers_by_the_clock
 from .waits import waits_put_in
 
 PASSES: tuple[Placed, ...] = (
+    Placed(timers_by_the_clock, "storage", before="drop_unused"),
     Placed(waits_put_in, "storage", behind="number_data"),
     Placed(pulses_as_tasks, "storage", behind="number_data"),
 )
