@@ -259,7 +259,7 @@ class Assignments:
             return
         number, counts = (axis, self.positions.job.pulses(axis)) if axis else component(name)
         if known is not None and known.kind == "pose":
-            value = known.values[("x", "y", "z", "a", "b", "c").index(name)]
+            value = known.values[ir.POSE.index(name)]
             self.number(place, ir.RealLiteral(value))
             return
         source = self.positions.as_variable(base)

@@ -51,7 +51,6 @@ Action = ir.Assign | ir.CallRoutine
 _NEAR_MM = 0.5  # an action that near to an end of the move is at the end
 _SAME_RAD = 1e-4
 _CORNER_MM = tables.TAGS["CR"][0]
-_AXES = ("x", "y", "z", "a", "b", "c")
 
 
 @dataclass(slots=True)
@@ -180,7 +179,7 @@ class _Way:
             place = self.centre + np.cos(angle) * self.first + np.sin(angle) * self.second
             values = (*(float(round(float(one), 9)) + 0.0 for one in place), *values[3:])
         entries: list[tuple[str | None, ir.Expression]] = [
-            (name, ir.RealLiteral(value)) for name, value in zip(_AXES, values, strict=True)
+            (name, ir.RealLiteral(value)) for name, value in zip(ir.POSE, values, strict=True)
         ]
         entries.extend((name, ir.IntLiteral(value)) for name, value in self.flags)
         return ir.Aggregate(tuple(entries))

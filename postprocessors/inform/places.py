@@ -22,7 +22,6 @@ from .operands import constant, numbered
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
 
-_POSE = ("x", "y", "z", "a", "b", "c")
 _UNSET = 8e9  # RAPID's mark of an external axis that is not there
 Values = tuple[float, ...]
 WORLD: Values = (0.0,) * 6
@@ -58,8 +57,8 @@ def position_of(value: ir.Expression) -> Position | None:
     quaternion = _numbers(parts, ("q1", "q2", "q3", "q4"))
     if quaternion is not None:
         angles = matrix_to_zyx(quaternion_to_matrix(list(quaternion)))
-        parts |= dict(zip(("a", "b", "c"), (ir.RealLiteral(float(one)) for one in angles), strict=True))
-    found = _numbers(parts, _POSE)
+        parts |= dict(zip(ir.ANGLES, (ir.RealLiteral(float(one)) for one in angles), strict=True))
+    found = _numbers(parts, ir.POSE)
     if found is None:
         return None
     flags = tuple((name, constant(parts[name])) for name in tables.FLAGS if name in parts)
@@ -75,7 +74,7 @@ def way_of(value: ir.Expression) -> Position | None:
     if not parts:
         return None
     joints = any(name in parts for name in tables.JOINT_ELEMENTS)
-    names = tables.JOINT_ELEMENTS if joints else _POSE
+    names = tables.JOINT_ELEMENTS if joints else ir.POSE
     found = _numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)
     return None if found is None else Position("joints" if joints else "pose", found, (), _external(parts))
 

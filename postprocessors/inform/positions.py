@@ -13,8 +13,6 @@ from .job import Job
 from .operands import Registers, bank_of, constant, element
 from .places import WORLD, Constants, Position, flat, inverse, position_of, product
 
-_POSES = ("x", "y", "z", "a", "b", "c")
-
 
 @dataclass(slots=True)
 class Positions:
@@ -259,7 +257,7 @@ class Positions:
         """Constant components from a variable that holds them, computed ones filled in behind."""
         parts = flat(value)
         computed = {name: part for name, part in parts.items() if constant(part) is None}
-        if not set(computed) <= set(_POSES) or not set(_POSES) <= set(parts):
+        if not set(computed) <= set(ir.POSE) or not set(ir.POSE) <= set(parts):
             raise CannotSayError("a position with computed joints or missing components")
         zeros = tuple((n, ir.RealLiteral(0.0) if n in computed else part) for n, part in parts.items())
         known = position_of(ir.Aggregate(zeros))

@@ -117,7 +117,7 @@ class Expressions:
             return f"{base}.{'.'.join(nested)}"
         if isinstance(type, ir.NamedType | None):
             return f"{base}.{name}"
-        if name in ("a", "b", "c"):
+        if name in ir.ANGLES:
             raise CannotSayError("orientations have quaternion components only")
         return f"{base}.{COMPONENTS.get(type.__class__, {}).get(name, name)}"
 

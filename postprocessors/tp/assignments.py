@@ -97,7 +97,7 @@ class Assignments:
                     raise CannotSayError("the place of joint values and the joints of a place are not calculated")
                 return self.position(place, base)
             case ir.System(name="null_frame" | "world"):
-                zero = {name: ir.RealLiteral(0.0) for name in ("x", "y", "z", "a", "b", "c")}
+                zero = {name: ir.RealLiteral(0.0) for name in ir.POSE}
                 return self.taught(place, ir.Aggregate(tuple(zero.items())))
             case ir.Aggregate():
                 return self.aggregate(place, value)

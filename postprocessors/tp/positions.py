@@ -24,8 +24,6 @@ from .configuration import FLAGS, config_text
 from .expressions import constant as number_of
 from .texts import comment
 
-_POSE = ("x", "y", "z", "a", "b", "c")
-_JOINTS = ("j1", "j2", "j3", "j4", "j5", "j6")
 _EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
 _POINT = re.compile(r"P\[?(\d+)\]?", re.IGNORECASE)
 _POINT_TEXT = re.compile(r"\s*P\s*\[", re.IGNORECASE)
@@ -168,22 +166,22 @@ def step_of(value: ir.Expression, turned: bool = False) -> Position:
     if not isinstance(value, ir.Aggregate):
         raise CannotSayError("the way of a relative move that is computed")
     parts = flat(value)
-    names = _JOINTS if set(_JOINTS) & set(parts) else _POSE
+    names = ir.AXES if set(ir.AXES) & set(parts) else ir.POSE
     values = numbers({**dict.fromkeys(names, ir.RealLiteral(0.0)), **parts}, names)
-    if names == _POSE and any(values[3:]) and not turned:
+    if names == ir.POSE and any(values[3:]) and not turned:
         raise CannotSayError("INC adds angles one by one; a turned relative move is something else")
-    return Position("joints" if names == _JOINTS else "pose", tuple(values))
+    return Position("joints" if names == ir.AXES else "pose", tuple(values))
 
 
 def position_of(value: ir.Expression, scope: Scope) -> Position:
     """The position of a constant value. Raises CannotSayError when it is computed or lacks components."""
     parts = flat(value)
-    if set(_JOINTS) & set(parts):
-        found = _JOINTS[: 6 if "j6" in parts or len(parts) > 5 else 4]
+    if set(ir.AXES) & set(parts):
+        found = ir.AXES[: 6 if "j6" in parts or len(parts) > 5 else 4]
         return Position("joints", tuple(numbers(parts, found)), (), external(parts))
-    if set(parts) >= set(_POSE):
-        angles = [_turned(one) for one in numbers(parts, _POSE[3:])]
-        return Position("pose", (*numbers(parts, _POSE[:3]), *angles), _flags(parts), external(parts))
+    if set(parts) >= set(ir.POSE):
+        angles = [_turned(one) for one in numbers(parts, ir.POSE[3:])]
+        return Position("pose", (*numbers(parts, ir.POSE[:3]), *angles), _flags(parts), external(parts))
     folded = constant(value, scope)
     pose = pose_of(folded)
     if pose is not None:
@@ -195,7 +193,7 @@ def position_of(value: ir.Expression, scope: Scope) -> Position:
     if isinstance(folded, Record) and isinstance(folded.type, ir.JointsType):
         axes = folded.part("robax")
         source = axes if isinstance(axes, Record) else folded
-        given = [source.part(name) for name in _JOINTS]
+        given = [source.part(name) for name in ir.AXES]
         values = tuple(float(one) for one in given if isinstance(one, int | float))
         return Position("joints", values, (), _further(folded))
     raise CannotSayError("a position with computed or missing components")

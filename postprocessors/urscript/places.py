@@ -18,7 +18,6 @@ from . import spelling, tables
 from .saying import Saying
 
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
-_FLAT = ("x", "y", "z", "a", "b", "c")
 _ZERO = ir.RealLiteral(0.0)
 _UNUSED = 9e8  # an external axis that does not exist stands at 9E9
 _REGISTER = re.compile(r"((?:input|output)_(?:boolean|integer|float)_register|port_bit|port_register)_(\d+)")
@@ -162,10 +161,10 @@ class Places:
         """A pose of computed components."""
         if {"trans", "rot"} & set(named):
             raise self.refuse("a pose whose position and rotation are values of their own")
-        values = {name: named.get(name, _ZERO) for name in _FLAT}
-        angles = [lasting_number(values[name], self.expressions.scope) for name in ("a", "b", "c")]
+        values = {name: named.get(name, _ZERO) for name in ir.POSE}
+        angles = [lasting_number(values[name], self.expressions.scope) for name in ir.ANGLES]
         if any(angle is None for angle in angles):
-            return self.expressions.helper("rpl_pose", *(self.expressions.text(values[name]) for name in _FLAT))
+            return self.expressions.helper("rpl_pose", *(self.expressions.text(values[name]) for name in ir.POSE))
         turn = spelling.rotation_vector(rigid.rotation_of_zyx(*(angle or 0.0 for angle in angles)))
         place = [self.expressions.measured(values[name], "m") for name in ("x", "y", "z")]
         numbers = [short(one) for one in place]

@@ -322,7 +322,7 @@ class Statements:
                 zero = ir.IntLiteral(0)
                 return [f"{own}.{part}={self.text(given.get(part, zero))}" for part in "xyz"]
             case "rot", ir.Aggregate(entries=entries):
-                turn = ir.Aggregate(tuple(entry for entry in entries if entry[0] in ("a", "b", "c")), "pose")
+                turn = ir.Aggregate(tuple(entry for entry in entries if entry[0] in ir.ANGLES), "pose")
                 return [f"{own}={{{own}.x,{own}.y,{own}.z,0,0,0}}*{self.text(turn)}"]
             case "rot", ir.Builtin(function="tool_offset", arguments=(first, *shift, _, _, _)) as turn if (
                 first == NULL and [constant_number(one, e.scope) for one in shift] == [0.0] * 3

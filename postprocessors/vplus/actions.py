@@ -42,7 +42,6 @@ _SET = (ir.PoseType, ir.TargetType, ir.JointsType, ir.VectorType, ir.RotationTyp
 _LARGEST_COPY = 24
 _LONGEST_NAME = tables.LONGEST_NAME + 2
 _KEPT = 3  # characters of a variable that keeps a subscript
-_COMPONENTS = ("x", "y", "z", "a", "b", "c")
 _TOLD = frozenset(("notify", "state", "write", "error", "quit"))
 
 
@@ -167,7 +166,7 @@ class Actions:
         place, parts = first.target.base, dict[str, ir.Expression]()
         if not isinstance(self.expressions.type(place), ir.PoseType | ir.TargetType):
             return None
-        for statement, name in zip(body, _COMPONENTS, strict=False):
+        for statement, name in zip(body, ir.POSE, strict=False):
             match statement:
                 case ir.Assign(target=ir.Field(base=base, name=other), value=value) if base == place and other == name:
                     own = ir.Field(place, name)
@@ -179,7 +178,7 @@ class Actions:
         count = 6 if len(parts) == 6 else 3
         if len(parts) < count or (count == 6 and any(node == place for node in walk(tuple(parts.values())))):
             return None
-        given = {name: parts[name] for name in _COMPONENTS[:count]}
+        given = {name: parts[name] for name in ir.POSE[:count]}
         name, locations = self.expressions.text(place), self.expressions.places.locations
         shown = locations.composed(place, given)
         while len(shown) + len(name) + 7 > tables.LONGEST_LINE:

@@ -84,7 +84,7 @@ class Locations:
             case ir.PoseType() | ir.TargetType() | ir.VectorType() | ir.RotationType():
                 if name in tables.PLACES:
                     return f"D{name.upper()}({self.expressions.text(base)})"
-                if name in ("a", "b", "c"):
+                if name in ir.ANGLES:
                     return self.euler(base, name)
                 if name in ("trans", "rot"):
                     return self.expressions.printer.printed(base)
@@ -153,7 +153,7 @@ class Locations:
             while steps[-1] == "0":
                 steps.pop()
             return f"SHIFT({place} BY {', '.join(steps)})"
-        if name not in ("a", "b", "c"):
+        if name not in ir.ANGLES:
             raise self.refuse(f"the component {name} cannot be set")
         at_place = f"TRANS(DX({place}), DY({place}), DZ({place}))"
         turns = [

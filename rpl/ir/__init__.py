@@ -128,8 +128,11 @@ from rpl.ir.statements import (
     While,
 )
 from rpl.ir.types import (
+    ANGLES,
+    AXES,
     COMPONENTS,
     NUMBER_TYPES,
+    POSE,
     POSITIONAL,
     SIGNAL_KINDS,
     ArrayType,
@@ -180,7 +183,10 @@ __all__ = [
     "BoolLiteral",
     "BoolType",
     "Builtin",
+    "ANGLES",
+    "AXES",
     "COMPONENTS",
+    "POSE",
     "CONVERSIONS",
     "Call",
     "CallRoutine",

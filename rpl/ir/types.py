@@ -189,14 +189,19 @@ SIGNAL_KINDS = ("digital_in", "digital_out", "analog_in", "analog_out", "group_i
 
 NUMBER_TYPES = (IntType, RealType)
 
+# The components of a place by its pose (angles turn about z, y and x), and those by its joints.
+ANGLES = ("a", "b", "c")
+POSE = ("x", "y", "z", *ANGLES)
+AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
+
 _REAL = RealType()
 _POSE_FIELDS: dict[str, Type] = {
-    **dict.fromkeys(("x", "y", "z", "a", "b", "c"), _REAL),
+    **dict.fromkeys(POSE, _REAL),
     "trans": VectorType(),
     "rot": RotationType(),
 }
 _EXTERNAL_FIELDS: dict[str, Type] = dict.fromkeys(("e1", "e2", "e3", "e4", "e5", "e6"), _REAL)
-_AXIS_FIELDS: dict[str, Type] = dict.fromkeys(("j1", "j2", "j3", "j4", "j5", "j6"), _REAL)
+_AXIS_FIELDS: dict[str, Type] = dict.fromkeys(AXES, _REAL)
 
 # Components of the built-in types by their neutral names. Target and configuration types add the flags of their
 # notation, which the dialect declares (registry.notation_fields).

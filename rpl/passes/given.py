@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from rpl import ir
 
 _PATH = re.compile(r"(?:(?P<module>\w+)\.)?(?P<name>\w+)(?:\[(?P<element>\d+)\])?")
-_AXES = ("x", "y", "z", "a", "b", "c")
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +99,7 @@ def _expression(value: object, type: ir.Type, old: ir.Expression | None) -> ir.E
 def _place(components: dict[str, object], old: ir.Expression | None) -> ir.Expression | None:
     """A place by its components; those that are not given are as they were, or zero."""
     named = old.entries if isinstance(old, ir.Aggregate) else ()
-    parts: dict[str, ir.Expression] = {name: ir.RealLiteral(0.0) for name in _AXES}
+    parts: dict[str, ir.Expression] = {name: ir.RealLiteral(0.0) for name in ir.POSE}
     parts |= {name.lower(): value for name, value in named if name is not None}
     for name, value in components.items():
         if name.lower() not in parts or isinstance(value, bool) or not isinstance(value, int | float):

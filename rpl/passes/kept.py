@@ -21,7 +21,7 @@ from rpl.source import Origin
 Keys = frozenset[str]
 _NONE: Keys = frozenset()
 # All components of a place; setting each of them sets the place.
-_WHOLE = tuple(frozenset(names) for names in (("x", "y", "z", "a", "b", "c"), ("j1", "j2", "j3", "j4", "j5", "j6")))
+_WHOLE = tuple(frozenset(names) for names in (ir.POSE, ir.AXES))
 # Built-in procedures that read their first argument before they change it.
 _CHANGING = frozenset(("increment", "decrement", "text_append"))
 
@@ -499,7 +499,7 @@ def zero_of(type: ir.Type) -> ir.Expression | None:
         case ir.BoolType():
             return ir.BoolLiteral(False)
         case ir.PoseType():
-            return ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")), "pose")
+            return ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ir.POSE), "pose")
     return None
 
 

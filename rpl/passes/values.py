@@ -103,7 +103,7 @@ def _rotation(parts: dict[str, Value]) -> rigid.Rotation | None:
     quaternion = _numbers(parts, ("q1", "q2", "q3", "q4"))
     if quaternion:
         return rigid.rotation_of_quaternion(*quaternion)
-    angles = _numbers(parts, ("a", "b", "c"))
+    angles = _numbers(parts, ir.ANGLES)
     return rigid.rotation_of_zyx(*angles) if angles else None
 
 
@@ -122,7 +122,7 @@ def component(value: Value, name: str) -> Value | None:
         case rigid.Rotation():
             if name in ("q1", "q2", "q3", "q4"):
                 return value.quaternion[int(name[1]) - 1]
-            return value.zyx["abc".index(name)] if name in ("a", "b", "c") else None
+            return value.zyx["abc".index(name)] if name in ir.ANGLES else None
         case rigid.Pose():
             if name == "trans":
                 return value.position

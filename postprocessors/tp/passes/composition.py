@@ -18,7 +18,7 @@ from rpl.passes.legalise.stages import legalising
 
 # Below this cosine of b the first and the third angle turn about the same axis; the third one is zero then.
 _SMALL = 1e-7
-_POSITION, _ANGLES = ("x", "y", "z"), ("a", "b", "c")
+_POSITION, _ANGLES = ("x", "y", "z"), ir.ANGLES
 _LEFT, _RIGHT, _DONE = "one", "other", "done"
 _POSES = (ir.PoseType, ir.TargetType)
 

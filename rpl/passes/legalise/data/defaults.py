@@ -30,10 +30,10 @@ _LONGEST = 4096
 _ZERO = ir.RealLiteral(0.0)
 _NUMBERS: dict[type, tuple[str, ...]] = {
     ir.VectorType: ("x", "y", "z"),
-    ir.PoseType: ("x", "y", "z", "a", "b", "c"),
-    ir.TargetType: ("x", "y", "z", "a", "b", "c"),
-    ir.JointsType: ("j1", "j2", "j3", "j4", "j5", "j6"),
-    ir.RotationType: ("a", "b", "c"),
+    ir.PoseType: ir.POSE,
+    ir.TargetType: ir.POSE,
+    ir.JointsType: ir.AXES,
+    ir.RotationType: ir.ANGLES,
 }
 
 

@@ -28,7 +28,6 @@ Place = tuple[int, str, tuple[int, ...], str]
 Settled = dict[tuple[str, tuple[int, ...]], Value]
 
 _MODAL = ("tool", "base")
-_COMPONENTS = ("x", "y", "z", "a", "b", "c")
 _MOST_STEPS = 2000  # statements carried out; a longer beginning is no preparation
 _MOST_ELEMENTS = 100  # of an array whose first values are looked at
 _PLAIN = (ir.Nothing, ir.Message, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.LookAhead, ir.Pulse, ir.Clock)
@@ -199,7 +198,7 @@ class _Start:
 
     def spread(self, whole: Place) -> None:
         """A known place, component by component, before one of them changes."""
-        for name in _COMPONENTS:
+        for name in ir.POSE:
             part = component(self.known[whole], name)
             if part is not None:
                 self.known[(*whole[:3], name)] = part
@@ -340,7 +339,7 @@ class _Start:
         if place[3]:
             whole = self.known.get((*place[:3], ""))
             return None if whole is None else component(whole, place[3])
-        parts = [self.known.get((*place[:3], name)) for name in _COMPONENTS]
+        parts = [self.known.get((*place[:3], name)) for name in ir.POSE]
         numbers = [float(one) for one in parts if isinstance(one, int | float)]
         if len(numbers) != len(parts) or abs(numbers[4]) >= 90.0:
             return None

@@ -15,8 +15,6 @@ from rpl.passes.rigid import Pose
 from rpl.passes.scope import Scope
 from rpl.passes.values import Target, Value, component, composed, pose_of
 
-_NAMES = ("x", "y", "z", "a", "b", "c")
-
 
 @dataclass(slots=True)
 class StraightPlaces:
@@ -58,9 +56,9 @@ class StraightPlaces:
 
 def _changed(place: Pose | Target, part: str, value: Value) -> Value | None:
     """The place with one component of six set (mm, degrees)."""
-    if part not in _NAMES:
+    if part not in ir.POSE:
         return None
-    parts = {name: number for name in _NAMES if (number := component(place, name)) is not None}
+    parts = {name: number for name in ir.POSE if (number := component(place, name)) is not None}
     pose = pose_of(composed(ir.PoseType(), {**parts, part: value}))
     return pose if pose is None or isinstance(place, Pose) else replace(place, pose=pose)
 

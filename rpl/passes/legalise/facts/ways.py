@@ -232,7 +232,7 @@ def _with_numbers(place: ir.Expression, assigned: Assigned) -> ir.Expression:
 
 def _literal(place: rigid.Vector) -> ir.Expression:
     parts = [ir.RealLiteral(float(f"{value:.9g}")) for value in (place.x, place.y, place.z, 0.0, 0.0, 0.0)]
-    return ir.Aggregate(tuple(zip(("x", "y", "z", "a", "b", "c"), parts, strict=True)), type_name="pose")
+    return ir.Aggregate(tuple(zip(ir.POSE, parts, strict=True)), type_name="pose")
 
 
 def between(one: ir.Expression, other: ir.Expression) -> ir.Expression:

@@ -25,8 +25,6 @@ from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Record, Target, Value, component, pose_of
 
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
-_COMPONENTS = ("x", "y", "z", "a", "b", "c")
 _NEAR = "target_to_joints_near"
 _PLACES = ("tool", "base", "robot_root")
 Joints = tuple[float, ...]
@@ -179,7 +177,7 @@ class Whereabouts:
             return None
         inner = goal.part("robax")
         goal = inner if isinstance(inner, Record) else goal
-        names = _AXES if self.arm is None else _AXES[: self.arm.axes]
+        names = ir.AXES if self.arm is None else ir.AXES[: self.arm.axes]
         found = [component(goal, name) for name in names]
         return tuple(float(one) for one in found if isinstance(one, int | float)) if None not in found else None
 
@@ -241,7 +239,7 @@ def _whole(move: ir.Move) -> ir.Expression:
     target = move.target
     if not isinstance(target, ir.Aggregate) or any(name is None for name, _ in target.entries):
         return target
-    names = _AXES if move.relative == "joints" else _COMPONENTS
+    names = ir.AXES if move.relative == "joints" else ir.POSE
     given = {name.lower() for name, _ in target.entries if name is not None}
     if not given <= set(names):
         return target

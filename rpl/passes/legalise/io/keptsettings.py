@@ -23,7 +23,6 @@ _SINGLE = frozenset(
 _OF_AXES = frozenset(("joint_speed", "joint_acceleration", "external_speed", "external_acceleration"))
 _AXES = 6
 _FRAME = "base"
-_POSE = ("x", "y", "z", "a", "b", "c")
 
 
 @legalising(unless=lambda context: context.capabilities.carries_rules, sees=("System",))
@@ -120,7 +119,7 @@ def _data(program: ir.Program, kept: dict[str, str]) -> Iterator[ir.Variable]:
         number: ir.Expression = ir.RealLiteral(start)
         type: ir.Type = ir.RealType()
         if name == _FRAME:
-            type, number = ir.PoseType(), ir.Aggregate(tuple((part, ir.RealLiteral(0.0)) for part in _POSE))
+            type, number = ir.PoseType(), ir.Aggregate(tuple((part, ir.RealLiteral(0.0)) for part in ir.POSE))
         elif name in _OF_AXES:
             type = ir.ArrayType(ir.RealType(), (ir.IntLiteral(_AXES),))
             number = ir.Aggregate(((None, number),) * _AXES)

@@ -40,8 +40,6 @@ SHIFT_ONLY = code(
 )
 
 _POSITION = ("x", "y", "z")
-_ANGLES = ("a", "b", "c")
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
 @legalising(
@@ -108,7 +106,7 @@ class Whole:
     def whole_way(self, way: ir.Expression) -> ir.Aggregate:
         """What is left out of a way is nothing."""
         assert isinstance(way, ir.Aggregate)
-        names = _AXES if way.type_name == "joints" else (*_POSITION, *_ANGLES)
+        names = ir.AXES if way.type_name == "joints" else (*_POSITION, *ir.ANGLES)
         given = dict(way.entries)
         others = tuple((name, value) for name, value in way.entries if name not in names)
         return replace(way, entries=(*((name, given.get(name, ir.RealLiteral(0.0))) for name in names), *others))
@@ -142,14 +140,14 @@ class Whole:
         named = {name for name, _ in target.entries}
         if None in named or named & {"trans", "robax"}:
             return False
-        wanted = _AXES if target.type_name == "joints" else (*_POSITION, *_ANGLES)
+        wanted = ir.AXES if target.type_name == "joints" else (*_POSITION, *ir.ANGLES)
         return not set(wanted) <= named
 
     def whole(self, move: ir.Move, done: list[ir.Statement]) -> list[ir.Statement]:
         if isinstance(move.target, ir.Aggregate) and move.target.type_name == "joints":
             return self.from_here(move, move.target, ir.JointsType(), done)
         if isinstance(self.type_of(move.target), ir.JointsType) and move.relative == "joints":
-            axes = tuple((name, ir.Field(move.target, name)) for name in _AXES)
+            axes = tuple((name, ir.Field(move.target, name)) for name in ir.AXES)
             return self.from_here(move, ir.Aggregate(axes, type_name="joints"), ir.JointsType(), done)
         if not isinstance(move.target, ir.Aggregate):
             return self.shifted(move, done)
@@ -220,7 +218,7 @@ class Whole:
 
     def offset(self, move: ir.Move, target: ir.Aggregate, done: list[ir.Statement]) -> list[ir.Statement]:
         values = {name: value for name, value in target.entries if name is not None}
-        if any(name in values and not _is_zero(values[name]) for name in _ANGLES):
+        if any(name in values and not _is_zero(values[name]) for name in ir.ANGLES):
             self.context.diagnostics.report(TURNED, move.origin)
             return [move]
         start = self.last_target(done, move) or self.noted(done, move)

@@ -16,7 +16,6 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import real
 
 _POSITION = ("x", "y", "z")
-_ANGLES = ("a", "b", "c")
 
 
 @legalising(unless=lambda context: PlaceRule.PARTIAL in context.capabilities.places.rules)
@@ -37,7 +36,7 @@ def whole_arc_points(program: ir.Program, context: Context) -> ir.Program:
 
 def _position_only(via: ir.Aggregate) -> bool:
     named = {name for name, _ in via.entries}
-    return named >= set(_POSITION) and not named >= set(_ANGLES) and "trans" not in named and None not in named
+    return named >= set(_POSITION) and not named >= set(ir.ANGLES) and "trans" not in named and None not in named
 
 
 def _turned_as_end(move: ir.Move, via: ir.Aggregate, editor: Editor) -> ir.Body:
@@ -45,9 +44,9 @@ def _turned_as_end(move: ir.Move, via: ir.Aggregate, editor: Editor) -> ir.Body:
     end = move.target
     match end:
         case ir.Aggregate(entries=entries):
-            angles = {name: value for name, value in entries if name in _ANGLES}
-            filled = {**dict.fromkeys(_ANGLES, real(0.0)), **angles, **given}
-            entries = tuple((name, filled[name]) for name in (*_POSITION, *_ANGLES))
+            angles = {name: value for name, value in entries if name in ir.ANGLES}
+            filled = {**dict.fromkeys(ir.ANGLES, real(0.0)), **angles, **given}
+            entries = tuple((name, filled[name]) for name in (*_POSITION, *ir.ANGLES))
             return (replace(move, via=replace(via, entries=entries)),)
         case ir.Name() | ir.Index() | ir.Field():
             type = editor.type_of(end)

@@ -26,8 +26,7 @@ from rpl.passes.typing import type_of
 from rpl.passes.values import Target, real
 
 _POSITION = ("x", "y", "z")
-_ANGLES = ("a", "b", "c")
-_NAMES = (*_POSITION, *_ANGLES)
+_NAMES = (*_POSITION, *ir.ANGLES)
 _FRAMES = ("tool", "base", "robot_root", "interpolation")
 _PLACES = 9
 _STRAIGHT_DEG = 0.01
@@ -57,7 +56,7 @@ class Known:
     def splits(self, missing: tuple[str, ...]) -> bool:
         """Do the angles that a copy of the place keeps stay what they are when others are set? At b = 90 degrees a and
         c turn about the same axis, and controllers share the turn out otherwise."""
-        kept = [name for name in _ANGLES if name in missing]
+        kept = [name for name in ir.ANGLES if name in missing]
         return len(kept) in (0, 3) or abs(abs(self.parts.get("b", 90.0)) - 90.0) > _STRAIGHT_DEG
 
 
@@ -202,8 +201,8 @@ class _Places:
             found = {**known.parts, **{n: value for n, value in given.items() if n in _NAMES and value is not None}}
             found = {name: value for name, value in found.items() if given.get(name, value) is not None}
             return Known(found, () if set(_NAMES) <= given.keys() and not taught_names(self.scope, place) else taught)
-        turned = any(given.get(name, 0.0) != 0.0 for name in _ANGLES)
-        found = {} if turned else {name: value for name, value in known.parts.items() if name in _ANGLES}
+        turned = any(given.get(name, 0.0) != 0.0 for name in ir.ANGLES)
+        found = {} if turned else {name: value for name, value in known.parts.items() if name in ir.ANGLES}
         if move.relative == "base":
             for name in _POSITION:
                 step = given.get(name, 0.0)

@@ -232,7 +232,7 @@ class _Aggregates(Rewriter):
         given = self.given(value, type)
         order = {name.lower() for name in component_names(type, self.scope)}
         if isinstance(type, _POINTS) and not {"trans", "rot", "robax"} & set(given):
-            flat = ("x", "y", "z", "a", "b", "c") if not isinstance(type, ir.JointsType) else (
+            flat = ir.POSE if not isinstance(type, ir.JointsType) else (
                 "j1", "j2", "j3", "j4", "j5", "j6"
             )  # fmt: skip
             return set(flat) <= set(given)

@@ -37,7 +37,7 @@ REFERENCE_PART = code(
     "the position or rotation of a value is passed by reference; the target passes a copy",
 )
 
-_POSITION, _ANGLES = ("x", "y", "z"), ("a", "b", "c")
+_POSITION, _ANGLES = ("x", "y", "z"), ir.ANGLES
 _FLAT = (*_POSITION, *_ANGLES)
 _QUATERNION = ("q1", "q2", "q3", "q4")
 # Places in positional aggregates of vectors, rotations, poses and targets.

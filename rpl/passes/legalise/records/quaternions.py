@@ -19,7 +19,7 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, Value
 
-_POSITION, _ANGLES = ("x", "y", "z"), ("a", "b", "c")
+_POSITION, _ANGLES = ("x", "y", "z"), ir.ANGLES
 _AXES, _EXTERNAL = tuple(ir.COMPONENTS[ir.AxesType]), tuple(ir.COMPONENTS[ir.ExternalType])
 _EULER = {"a": "euler_z", "b": "euler_y", "c": "euler_x"}
 _UNUSED = ir.RealLiteral(9e9, "9E9")

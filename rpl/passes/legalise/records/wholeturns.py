@@ -19,8 +19,7 @@ from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typewords import type_word
 
-_ANGLES = ("a", "b", "c")
-_ALL = ("x", "y", "z", *_ANGLES)
+_ALL = ("x", "y", "z", *ir.ANGLES)
 
 
 @legalising(unless=lambda context: PlaceRule.KEEP_ANGLES in context.capabilities.places.rules)
@@ -33,7 +32,7 @@ def whole_turns(program: ir.Program, context: Context) -> ir.Program:
             at = 0
             while at < len(statements):
                 taken = next(
-                    (some for some in (_ALL, _ANGLES) if _sets(statements[at : at + len(some)], some, editor)), ()
+                    (some for some in (_ALL, ir.ANGLES) if _sets(statements[at : at + len(some)], some, editor)), ()
                 )
                 if taken:
                     done.append(_whole(statements[at : at + len(taken)], taken, editor))

@@ -14,7 +14,7 @@ from rpl.passes.capabilities import Aggregate
 from rpl.passes.legalise.context import Context
 
 _REAL, _POSE, _JOINTS = ir.RealType(), ir.PoseType(), ir.JointsType()
-COMPONENTS = ("x", "y", "z", "a", "b", "c")
+COMPONENTS = ir.POSE
 Made = tuple[tuple[ir.Parameter, ...], ir.Type, tuple[ir.Variable, ...], ir.Body]
 
 
@@ -147,7 +147,7 @@ def _tool_offset(library: Library) -> Made:
 def _transform(library: Library) -> Made:
     zero = number(0)
     placed = composed(ir.Name("f"), call(library.name("frame"), *_names("x y z"), zero, zero, zero))
-    body: ir.Body = (_set("f", placed), *(_set(f"f.{n}", zero) for n in ("a", "b", "c")), ir.Return(ir.Name("f")))
+    body: ir.Body = (_set("f", placed), *(_set(f"f.{n}", zero) for n in ir.ANGLES), ir.Return(ir.Name("f")))
     return (ir.Parameter("f", _POSE), *_reals("x y z")), _POSE, (), body
 
 

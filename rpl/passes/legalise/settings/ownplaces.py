@@ -21,7 +21,7 @@ from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 
-_NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ("x", "y", "z", "a", "b", "c")), "pose")
+_NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ir.POSE), "pose")
 
 # Solvers that a move may have around its goal (`configurations`): the move says with which tool.
 _GOALS = ("target_to_joints", "target_to_joints_near")

@@ -255,7 +255,7 @@ def _parts(target: ir.Expression) -> Iterator[tuple[str, float | None]]:
         case ir.Aggregate(entries=entries):
             yield from ((name or "", _number(value)) for name, value in entries)
         case ir.Builtin(arguments=arguments):
-            names = ("x", "y", "z", "a", "b", "c")
+            names = ir.POSE
             yield from ((name, _number(value)) for name, value in zip(names, arguments, strict=False))
 
 

@@ -44,7 +44,6 @@ _AT_RUN = "; its ramps take their time on top"
 _KNOWN = " and the usual acceleration"
 _TIME, _SPEED, _PERCENT = ir.System("move_duration"), ir.System("path_speed"), ir.System("joint_speed")
 _ROTATION = "swivel_speed"
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 _MORE = 1.0 + 1e-9  # times what rounding may add
 _SHORT_MM, _SMALL_DEG = 0.05, 0.05  # less than this is no way and no turn
 # How fast the tool turns, and how that begins and ends, where nothing is said: the emulator's values, deg/s and deg/s2.
@@ -329,7 +328,7 @@ class _Times:
         share = self.editor.temporary("move_share", ir.RealType())
         now = self.editor.temporary("joints_now", ir.JointsType())
         steps = [ir.Assign(share, time), *solved, ir.Assign(now, ir.Builtin("current_joints", ()))]
-        for name, top in zip(_AXES, arm.speeds, strict=False):
+        for name, top in zip(ir.AXES, arm.speeds, strict=False):
             turn = ir.Builtin("abs", (ir.Binary("-", ir.Field(there, name), ir.Field(now, name)),))
             needed = ir.Binary("*", turn, ir.RealLiteral(round(100.0 / float(top), 6)))
             steps.append(ir.Assign(share, ir.Builtin("max", (share, needed))))

@@ -22,7 +22,6 @@ from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Record, Target, Value, component, pose_of, real
 
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 _SAME_DEG = 0.01
 _POSTURES = ("posture_shoulder", "posture_elbow", "posture_wrist")
 POSTURE = code(
@@ -110,7 +109,7 @@ class _Asked(Rewriter):
                 self.context.diagnostics.report(POSTURE, move.origin, name=name.replace("_", " "))
             return plain
         self.written.tell(move, self.scope, move.target)
-        entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, self.here, strict=False))
+        entries = tuple((name, real(round(float(one), 9))) for name, one in zip(ir.AXES, self.here, strict=False))
         return replace(plain, target=ir.Aggregate(entries, type_name="joints"))
 
     def elsewise(self, move: ir.Move, goal: Value | None) -> bool:
@@ -158,7 +157,7 @@ class _Asked(Rewriter):
 
         if not isinstance(value, Record) or self.arm is None:
             return None
-        found = [component(value, name) for name in _AXES[: self.arm.axes]]
+        found = [component(value, name) for name in ir.AXES[: self.arm.axes]]
         if not all(isinstance(one, int | float) for one in found):
             return None
         return np.array(found, dtype=np.float64)

@@ -38,7 +38,6 @@ ASSUMED = code(
     "the joints that the source's controller takes from every place that is known in this program",
     "write the posture into the place, or move to joints before",
 )
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 _SAME_DEG = 0.01
 _TRIED = 60  # pairs of places, spread evenly by chance over the ranges of the axes
 _OFTEN = 0.05  # of them; what differs less often is a matter of the limits of the axes
@@ -138,7 +137,7 @@ class _Free(Rewriter):
 
     def to_joints(self, move: ir.Move, joints: Any) -> ir.Move:
         self.written.tell(move, self.scope, move.target)
-        entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, joints, strict=False))
+        entries = tuple((name, real(round(float(one), 9))) for name, one in zip(ir.AXES, joints, strict=False))
         return replace(move, target=ir.Aggregate(entries, type_name="joints"))
 
 

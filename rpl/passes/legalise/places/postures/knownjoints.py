@@ -20,7 +20,6 @@ from rpl.passes.values import Record, Target, component, pose_of, real
 from rpl.source import NOWHERE
 
 _SOLVED = {"target_to_joints": 1, "target_to_joints_near": 2}  # function -> arguments before tool and frame
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
 @legalising(
@@ -55,7 +54,9 @@ class _Known(Rewriter):
                 found = self.solved(given, _SOLVED[function])
                 if found is not None:
                     tell_written(self.context, self.scope, self.here, "these joint values", *given)
-                    entries = tuple((name, real(round(float(one), 9))) for name, one in zip(_AXES, found, strict=False))
+                    entries = tuple(
+                        (name, real(round(float(one), 9))) for name, one in zip(ir.AXES, found, strict=False)
+                    )
                     return ir.Aggregate(entries, type_name="joints", origin=expression.origin)
         return rewrite_parts(expression, self.expression)
 
@@ -99,7 +100,7 @@ class _Known(Rewriter):
         value = constant(given, self.scope, self.unchanged)
         if not isinstance(value, Record):
             return None
-        found = [component(value, name) for name in _AXES[:count]]
+        found = [component(value, name) for name in ir.AXES[:count]]
         return [float(one) for one in found if isinstance(one, int | float)] if None not in found else None
 
 

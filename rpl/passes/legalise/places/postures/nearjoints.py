@@ -33,7 +33,6 @@ POSTURE = code(
 _NEAR = "target_to_joints_near"
 _HERE = "target_to_joints"  # of one place: nearest to where the robot is
 _GIVEN = {_NEAR: 2, _HERE: 1}  # arguments, with the tool and the frame that are set
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 
 
 @legalising(
@@ -94,7 +93,7 @@ class _Solved(Rewriter):
         arm = self.context.robot
         if not isinstance(value, Record):
             return None
-        found = [component(value, name) for name in _AXES[: arm.axes if arm is not None else len(_AXES)]]
+        found = [component(value, name) for name in ir.AXES[: arm.axes if arm is not None else len(ir.AXES)]]
         return [float(one) for one in found if isinstance(one, int | float)] if None not in found else None
 
     def joints(self, move: ir.Move, place: ir.Expression, near: list[float]) -> list[float] | None:
@@ -112,7 +111,7 @@ class _Solved(Rewriter):
 
 
 def _written(joints: list[float]) -> ir.Expression:
-    entries = tuple((name, real(value)) for name, value in zip(_AXES, joints, strict=False))
+    entries = tuple((name, real(value)) for name, value in zip(ir.AXES, joints, strict=False))
     return ir.Aggregate(entries, type_name="joints")
 
 

@@ -32,7 +32,6 @@ TURN = code(
     "write this place as joints where the turn matters (cables, limits of axes, joints that are read)",
 )
 _NEAR = "target_to_joints_near"
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 _SAME_DEG = 0.01
 _OTHER_TURN_DEG = 180.0  # what differs by more is another turn, though joints are known to the degree only
 
@@ -133,7 +132,7 @@ class _Turns(Rewriter):
 
     def to_joints(self, move: ir.Move, joints: Joints) -> ir.Move:
         self.written.tell(move, self.scope, move.target)
-        entries = tuple((name, real(round(one, 9))) for name, one in zip(_AXES, joints, strict=False))
+        entries = tuple((name, real(round(one, 9))) for name, one in zip(ir.AXES, joints, strict=False))
         return replace(move, target=ir.Aggregate(entries, type_name="joints"))
 
 
@@ -142,7 +141,7 @@ def _near(move: ir.Move, scope: Scope) -> Joints | None:
     match move.target:
         case ir.Builtin(function=name, arguments=(_, ir.Aggregate(entries=entries))) if name == _NEAR:
             values = dict(entries)
-            given = [constant(values[name], scope) for name in _AXES if name in values]
+            given = [constant(values[name], scope) for name in ir.AXES if name in values]
             found = tuple(float(one) for one in given if isinstance(one, int | float))
             return found if len(found) == len(given) > 0 else None
     return None

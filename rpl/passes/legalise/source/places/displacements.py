@@ -19,7 +19,7 @@ from rpl.passes.rewrite import rewrite_parts
 
 _NAME = "displacement"
 _OFF = ir.System("null_frame")
-_TURN = ir.Aggregate(tuple((part, ir.IntLiteral(0)) for part in ("x", "y", "z", "a", "b", "c")), type_name="pose")
+_TURN = ir.Aggregate(tuple((part, ir.IntLiteral(0)) for part in ir.POSE), type_name="pose")
 _READ = ("current_target", "joints_to_target")
 _GIVEN = ("target_to_joints", "target_to_joints_near", "is_reachable")
 

@@ -18,8 +18,6 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
-_POSE = ("x", "y", "z", "a", "b", "c")
-_JOINTS = ("j1", "j2", "j3", "j4", "j5", "j6")
 _OPERATORS = {"element_sum": "+", "element_difference": "-", "element_product": "*"}
 _MOVED = ("displaced", "displaced_in_tool")
 _DONE, _ONE, _OTHER, _PRODUCT = "done", "one", "other", "product"
@@ -130,7 +128,7 @@ def _made(name: str, one: ir.Type, other: ir.Type, locals: tuple[ir.Variable, ..
 
 def _element(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Routine:
     """done := one, each component combined with that of the other (or with the number)."""
-    components = _JOINTS if isinstance(one, ir.JointsType) else _POSE
+    components = ir.AXES if isinstance(one, ir.JointsType) else ir.POSE
     number = isinstance(other, ir.RealType)
     body = tuple(
         ir.Assign(
@@ -153,7 +151,7 @@ def _displaced(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Rou
     product = ir.Variable(_PRODUCT, other if inside else one, scope="routine")
     body = (
         ir.Assign(ir.Name(_PRODUCT), ir.Binary(":", ir.Name(left), ir.Name(right))),
-        *(ir.Assign(_part(_DONE, component), _part(_PRODUCT, component)) for component in _POSE),
+        *(ir.Assign(_part(_DONE, component), _part(_PRODUCT, component)) for component in ir.POSE),
     )
     return _made(name, one, other, (product,), body)
 
@@ -168,7 +166,7 @@ def _by_wholes(made: ir.Routine) -> ir.Routine:
 def _pose_of(name: str, function: str, one: ir.Type, other: ir.Type) -> ir.Routine:
     """A target's place and rotation."""
     pose = ir.PoseType()
-    body = tuple(ir.Assign(_part(_DONE, component), _part(_ONE, component)) for component in _POSE)
+    body = tuple(ir.Assign(_part(_DONE, component), _part(_ONE, component)) for component in ir.POSE)
     return ir.Routine(
         name,
         "function",

@@ -16,8 +16,6 @@ from rpl.passes.legalise.context import Arm, Context
 from rpl.passes.legalise.facts.pulsecounts import EXTERNAL, count_of, report_assumed
 from rpl.passes.legalise.stages import legalising
 
-_AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
-
 
 @legalising()
 def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
@@ -37,7 +35,7 @@ def _folded(node: object, ratios: Sequence[float] | None, arm: Arm | None) -> ob
         case ir.Builtin(function="joint_pulses", arguments=(joints, ir.IntLiteral(value=number))):
             if ratios is None or not 1 <= number <= len(ratios):
                 return node
-            angle = ir.Field(joints, _AXES[number - 1], origin=node.origin)
+            angle = ir.Field(joints, ir.AXES[number - 1], origin=node.origin)
             count = ir.Binary("*", angle, ir.RealLiteral(ratios[number - 1]), origin=node.origin)
             return ir.Convert("round_half_away", count, origin=node.origin)
         case ir.Builtin(function="external_from_pulses", arguments=(ir.Aggregate() as counts,)):
@@ -54,7 +52,7 @@ def _joints(
 ) -> ir.Builtin | ir.Aggregate:
     """An aggregate of joints. The zero position is known without any data of the arm."""
     entries: list[tuple[str | None, ir.Expression]] = []
-    for place, (name, count) in enumerate(zip(_AXES, pulses, strict=False)):
+    for place, (name, count) in enumerate(zip(ir.AXES, pulses, strict=False)):
         ratio = ratios[place] if ratios is not None and place < len(ratios) else None
         number = count_of(count)
         if number == 0.0:

@@ -21,7 +21,6 @@ from rpl.passes.legalise.source.places.zyzangles import ZYZ_PARTS, zyz_part, zyz
 from rpl.passes.legalise.stages import legalising
 
 _REAL, _POSE, _INT = ir.RealType(), ir.PoseType(), ir.IntType()
-_COMPONENTS = ("x", "y", "z", "a", "b", "c")
 _PARTS = ("rotation_vector_x", "rotation_vector_y", "rotation_vector_z")
 _UNITS = ("m", "rad")
 _SMALL = 1e-9
@@ -109,7 +108,7 @@ def _pose(arguments: tuple[ir.Expression, ...]) -> ir.Aggregate | None:
         return None
     angles = _angles(known)
     turned = [ir.RealLiteral(rigid.clean(angle)) for angle in angles]
-    return ir.Aggregate(tuple(zip(_COMPONENTS, (*arguments[:3], *turned), strict=True)), "pose")
+    return ir.Aggregate(tuple(zip(ir.POSE, (*arguments[:3], *turned), strict=True)), "pose")
 
 
 def _angles(vector: list[float]) -> tuple[float, float, float]:
@@ -129,7 +128,7 @@ def _posed(rotation: ir.Expression) -> ir.Expression | None:
             return base
         case ir.Builtin(function="rotation_zyx", arguments=(a, b, c)):
             zero = number(0)
-            return ir.Aggregate(tuple(zip(_COMPONENTS, (zero, zero, zero, a, b, c), strict=True)), "pose")
+            return ir.Aggregate(tuple(zip(ir.POSE, (zero, zero, zero, a, b, c), strict=True)), "pose")
     return None
 
 

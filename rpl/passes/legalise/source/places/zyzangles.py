@@ -10,7 +10,6 @@ from rpl.passes import rigid
 from rpl.passes.legalise.rewriting.library import composed, function, minus, number, part, plus, times
 
 ZYZ_PARTS = ("zyz_yaw", "zyz_pitch", "zyz_roll")
-_COMPONENTS = ("x", "y", "z", "a", "b", "c")
 # Below this sine of the pitch only the sum (or difference) of yaw and roll is known: yaw is 0.
 _SMALL = 1e-6
 _REAL, _POSE, _INT = ir.RealType(), ir.PoseType(), ir.IntType()
@@ -32,7 +31,7 @@ def zyz_pose(place: Sequence[ir.Expression], angles: Sequence[ir.Expression], kn
 
 
 def _pose(values: Sequence[ir.Expression]) -> ir.Aggregate:
-    return ir.Aggregate(tuple(zip(_COMPONENTS, values, strict=True)), "pose")
+    return ir.Aggregate(tuple(zip(ir.POSE, values, strict=True)), "pose")
 
 
 def zyz_part() -> tuple[Typed, ir.Type, Typed, ir.Body]:

@@ -47,7 +47,6 @@ CORNER_MM, CORNER_SHARE = 0.3, 0.25
 _MOST_PARTS, _LOOKS, _PLACES = 64, 8, 7
 _FRAMES = ("tool", "base", "robot_root", "interpolation", "displacement")
 _MODES = ("orientation_mode", "circle_orientation")
-_NAMES = ("x", "y", "z", "a", "b", "c")
 
 
 @dataclass(frozen=True, slots=True)
@@ -287,7 +286,7 @@ class SplineArcs:
 
     def _place(self, pose: Pose) -> ir.Expression:
         values = (pose.position.x, pose.position.y, pose.position.z, *pose.rotation.zyx)
-        entries = tuple((name, real(round(value, _PLACES))) for name, value in zip(_NAMES, values, strict=True))
+        entries = tuple((name, real(round(value, _PLACES))) for name, value in zip(ir.POSE, values, strict=True))
         return ir.Aggregate(entries, type_name=type_word(ir.TargetType(self.scope.rules.name)))
 
 

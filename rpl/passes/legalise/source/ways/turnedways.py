@@ -24,7 +24,6 @@ from rpl.passes.typewords import type_word
 from rpl.passes.values import Target, real
 
 _POSITION = ("x", "y", "z")
-_ANGLES = ("a", "b", "c")
 _PLACES = 9
 
 
@@ -69,7 +68,7 @@ class _Turned(Whole):
     def turns(self, way: ir.Expression) -> bool:
         """Does it turn the tool, or may it?"""
         if isinstance(way, ir.Aggregate):
-            angles = [value for name, value in way.entries if name in _ANGLES]
+            angles = [value for name, value in way.entries if name in ir.ANGLES]
             parts = [constant(one, self.scope, self.unchanged) for one in angles]
             return any(part is None or part != 0 for part in parts)
         pose = self.pose(way)
@@ -111,7 +110,7 @@ class _Turned(Whole):
         """The way as a whole pose."""
         if isinstance(target, ir.Aggregate):
             given = {name: value for name, value in target.entries if name is not None}
-            entries = tuple((name, given.get(name, ir.RealLiteral(0.0))) for name in (*_POSITION, *_ANGLES))
+            entries = tuple((name, given.get(name, ir.RealLiteral(0.0))) for name in (*_POSITION, *ir.ANGLES))
             return ir.Aggregate(entries, type_name="pose")
         return ir.Builtin("pose_of", (target,)) if isinstance(self.type_of(target), ir.TargetType) else target
 
@@ -120,7 +119,7 @@ class _Turned(Whole):
         if not isinstance(way, ir.Aggregate):
             return way
         none = tuple((name, ir.RealLiteral(0.0)) for name in _POSITION)
-        return ir.Aggregate((*none, *((name, _part(way, name)) for name in _ANGLES)), type_name="pose")
+        return ir.Aggregate((*none, *((name, _part(way, name)) for name in ir.ANGLES)), type_name="pose")
 
     def goal(self, start: rigid.Pose, way: rigid.Pose, move: ir.Move) -> ir.Expression:
         """The place that a way leads to, without flags."""
@@ -129,7 +128,7 @@ class _Turned(Whole):
         else:
             goal = rigid.Pose(start.position.plus(way.position), way.rotation.then(start.rotation))
         values = (goal.position.x, goal.position.y, goal.position.z, *goal.rotation.zyx)
-        named = zip((*_POSITION, *_ANGLES), values, strict=True)
+        named = zip((*_POSITION, *ir.ANGLES), values, strict=True)
         entries = tuple((name, real(round(value, _PLACES))) for name, value in named)
         return ir.Aggregate(entries, type_name=type_word(ir.TargetType(self.scope.rules.name)))
 
