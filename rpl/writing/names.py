@@ -213,6 +213,8 @@ class _Renamer:
             case ir.Call(name=name):
                 arguments = tuple(map(self.argument, done.arguments))
                 return replace(done, name=self.new(name), arguments=arguments)
+            case ir.Builtin(function="task_runs", arguments=(ir.TextLiteral(value=name),)):
+                return replace(done, arguments=(ir.TextLiteral(self.new(name)),))
             case ir.EnumLiteral(member=name) if name.lower() in self.members:
                 return replace(done, member=self.new(name))
             case ir.Present(name=name):

@@ -165,3 +165,26 @@ def test_a_routine_that_cannot_be_declared_stops_where_it_is_called() -> None:
     assert {item.origin.line for item in lost} >= {4, 7}
     main = next(file.data.decode() for file in files if file.path == "main.pgx")
     assert "call fill" not in main and main.count("wait(false)") >= 1
+
+
+def test_a_question_whether_a_task_runs_follows_its_name() -> None:
+    """VAL3 has no point in a name, so the task is called otherwise there, also where it is asked for."""
+    text = """.PROGRAM main()
+        stop.it = FALSE
+        EXECUTE 1 count.parts()
+        WAIT.EVENT , 0.2
+        IF TASK(1, 1) == 4 THEN
+            SIGNAL 1
+        END
+        stop.it = TRUE
+        WAIT TASK(1, 1) <> 4
+        SIGNAL 2
+.END
+.PROGRAM count.parts()
+        WAIT stop.it
+.END
+"""
+    journey = there_and_back({"main.v2": text}, "vplus", "val3", "adept_viper_s650")
+    assert not journey.losses
+    assert 'taskStatus("count_parts")' in journey.text
+    assert journey.switched_on(journey.run("main")) == {1, 2}
