@@ -111,5 +111,7 @@ def test_a_critical_section_that_others_may_divide_is_refused(target: str) -> No
         ("seen = seen + 1", "seen = seen + 0"),
     ):
         text = COUNTED.format(section=section, started=started)
-        told = [line for name, line in refused(text, "urscript", target, ARM) if name == "critical-section-lost"]
-        assert told == [text[: text.index("enter_critical")].count("\n") + 1]
+        told = refused(text, "urscript", target, ARM)
+        line, end = (text[: text.index(f"{word}_critical")].count("\n") + 1 for word in ("enter", "exit"))
+        assert [at for name, at in told if name == "critical-section-lost"] == [line]
+        assert end not in [at for _, at in told]

@@ -58,6 +58,8 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
                 return (left_out(statement, REFUSED),)
             case ir.Critical() if single:
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
+            case ir.Critical(enter=False) if "Critical" not in context.capabilities.statements:
+                return (left_out(statement, "the section is refused where it begins"),)
             case ir.Vendor(dialect=owner, text=text, effect="tuning") if owner != context.target:
                 report(TUNING, statement.origin, text=text.strip())
                 remark = Comment(f" left out: {text.strip()}")
