@@ -13,6 +13,7 @@ from typing import Final
 
 from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.ir.rules import AdvanceRules, InputRules, Rules
+from rpl.registry import words
 
 # A move without blend has ended before the next statement begins; behind one with a blend the program goes on when the
 # robot enters the blend (M: it does not matter to the path what the program does then).
@@ -23,27 +24,26 @@ _ADVANCE = AdvanceRules(
     source="URScript Manual 5.2, movel: a move blocks; with a blend radius up to where the blend begins",
 )
 
-# One cycle of an e-Series controller, s (script manual 5.2, threads); CB3 controllers have 0.008.
-STEP_TIME_S: Final = 0.002
+_WORDS: Final = words("urscript")
+_DIGITAL, _ANALOG = (
+    {name: int(number) for name, number in _WORDS.numbers(f"first_{kind}").items()} for kind in ("digital", "analog")
+)
+
+STEP_TIME_S: Final = float(_WORDS.numbers("numbers")["step_s"])  # one cycle of the controller
 
 # M: the distance of two poses counts the angle between them (rad) like a length (m): the length of the six numbers of
 # pose_sub.
 POSE_DIST_COUNTS_ANGLE: Final = True
 
-# First neutral number of the general purpose registers that are signals like others, behind those of the control box:
-# boolean registers 0-127 are digital 19-146, floating-point registers 0-47 analog 5-52.
-FIRST_REGISTER: Final = {"boolean_register": 19, "float_register": 5}
+# First neutral number of the general purpose registers that are signals like others.
+FIRST_REGISTER: Final = {"boolean_register": _DIGITAL["boolean"], "float_register": _ANALOG["float"]}
 
-# First neutral number of each kind of signal by the function that names it. The numbers of one robot lie side by side:
-# standard 1-8, configurable 9-16, tool 17-18 (analog: standard 1-2, tool 3-4).
+# First neutral number of each kind of signal by the function that names it.
 FIRST_SIGNAL: Final = {
-    "standard_digital": 1,
-    "configurable_digital": 9,
-    "tool_digital": 17,
-    "digital": 1,
-    "standard_analog": 1,
-    "tool_analog": 3,
-    "analog": 1,
+    **{f"{where}_digital": _DIGITAL[where] for where in ("standard", "configurable", "tool")},
+    "digital": _DIGITAL["standard"],
+    **{f"{where}_analog": _ANALOG[where] for where in ("standard", "tool")},
+    "analog": _ANALOG["standard"],
 }
 # M: the old functions without a word for the kind count on: 8 and 9 are the tool's (16 and 17 on some versions).
 LEGACY_DIGITAL: Final = {8: 17, 9: 18, 16: 17, 17: 18}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rpl.registry import words as shared_words
 from rpl.writing.precedence import Operator, OperatorTable
 
 
@@ -114,10 +115,19 @@ EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
 PLACES = {"x": 0, "y": 1, "z": 2}
 
 # Physical digital signals counted from 1: (first, last, infix of the controller's functions).
-DIGITAL = ((1, 8, "standard"), (9, 16, "configurable"), (17, 18, "tool"), (19, 146, "boolean"))
-ANALOG = ((1, 2, "standard"), (3, 4, "tool"), (5, 52, "float"))
+_WORDS = shared_words("urscript")
+_NUMBERS = _WORDS.numbers("numbers")
+
+
+def _ranges(kind: str) -> tuple[tuple[int, int, str], ...]:
+    firsts = {name: int(number) for name, number in _WORDS.numbers(f"first_{kind}").items()}
+    lasts = (*(first - 1 for first in list(firsts.values())[1:]), int(_NUMBERS[f"last_{kind}"]))
+    return tuple((first, last, name) for (name, first), last in zip(firsts.items(), lasts, strict=True))
+
+
+DIGITAL, ANALOG = _ranges("digital"), _ranges("analog")
 REGISTERS = ("boolean", "float")  # general purpose registers, read and written by functions of another form
-STEP_S = 0.002  # one cycle of an e-Series controller, which sync() waits for (CB3: 0.008)
+STEP_S = float(_NUMBERS["step_s"])  # one cycle of the controller, which sync() waits for
 FLAGS = 32  # set_flag(0) .. set_flag(31): internal digital signals, counted from 1 here as the others
 
 # M: what movej, movel and movep do without v and a (script manual's defaults), deg/s and mm/s.
