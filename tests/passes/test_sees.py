@@ -11,7 +11,7 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.passes.legalise import pipeline
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.stages import Kinds, Pass
+from rpl.passes.legalise.stages import Kinds, Pass, kinds_of
 from rpl.project import read_sources
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
@@ -46,3 +46,18 @@ def test_a_pass_that_sees_nothing_does_nothing(language: str, target: str, monke
     translate_program(read, target, "kuka_kr6r900sixx", None, Diagnostics())
     assert acted == []
     assert skipped
+
+
+@pytest.mark.parametrize(
+    ("node", "kinds"),
+    [
+        (ir.Move("linear", ir.Name("p")), "Move"),
+        (ir.Move("linear", ir.Name("p"), concurrent=True), "Move|concurrent move"),
+        (ir.Move("joint", ir.Name("p"), relative="joints"), "Move|move relative to joints"),
+        (ir.Move("linear", ir.Name("p"), motion_class="velocity"), "Move|velocity move"),
+        (ir.Signal("flag", ir.IntLiteral(1)), "Signal|signal flag"),
+        (ir.System("override"), "System|system override"),
+    ],
+)
+def test_what_passes_see_of_a_node(node: object, kinds: str) -> None:
+    assert "|".join(kinds_of(node)) == kinds

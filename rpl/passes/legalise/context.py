@@ -104,6 +104,14 @@ class Context:
         return name
 
 
+def array(values: Any) -> Any:
+    """Joints or a matrix as an arm takes them. Most translations ask nothing of an arm, so what works with arrays is
+    loaded here."""
+    import numpy as np
+
+    return np.array(values, dtype=np.float64)
+
+
 def names_in(program: ir.Program) -> set[str]:
     """All declared names of the program and of its dialects' preludes, folded to lower case."""
     taken: set[str] = set()
@@ -130,4 +138,4 @@ def _add(declaration: ir.Declaration, taken: set[str]) -> None:
             taken.add(declaration.name.lower())
 
 
-__all__ = ["Context", "ProgramScope", "names_in", "rules_of"]
+__all__ = ["Arm", "Context", "ProgramScope", "array", "names_in", "rules_of"]

@@ -14,12 +14,12 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Local, Parameters
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.activations import Activations, called
+from rpl.passes.legalise.rewriting.beside import tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
-from rpl.source import Origin
 
 RECURSION = code(
     "recursion-lost",
@@ -147,16 +147,12 @@ def _without_variables(
         fixed = one.storage != "variable"
         made.append(replace(one, name=name, scope="module", initial=one.initial if fixed else None))
         if one.initial is not None and not fixed:
-            start.append(ir.Assign(ir.Name(name), one.initial, origin=_place(one.origin)))
+            start.append(ir.Assign(ir.Name(name), one.initial, origin=tidy(one.origin)))
     if not made:
         return routine, []
     done = replace(routine, declarations=tuple(kept), body=(*start, *routine.body))
     made = [_renamed_declaration(one, names) for one in made]
     return edit_bodies(done, lambda body: renamed(body, names)), made
-
-
-def _place(origin: Origin) -> Origin:
-    return replace(origin, comments=()) if origin.comments else origin
 
 
 def _renamed_declaration(declaration: ir.Declaration, names: dict[str, str]) -> ir.Declaration:

@@ -15,6 +15,7 @@ from rpl import ir
 from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.facts.effects import repeatable
 from rpl.passes.legalise.facts.wholes import Wholes, place_key
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -241,7 +242,7 @@ class _Split(Rewriter):
     def remainder(self, old: ir.Binary) -> ir.Expression:
         """What is left of a number that may be fractional (7.5 mod 2 is 1.5)."""
         left, right = self.expression(old.left), self.expression(old.right)
-        if not (_repeatable(left) and _repeatable(right)):
+        if not (repeatable(left) and repeatable(right)):
             return self.library.call("mod_real", left, right)
         quotient = ir.Binary("/", left, right, origin=old.origin)
         if self.has("trunc"):
@@ -253,7 +254,7 @@ class _Split(Rewriter):
     def divided(self, old: ir.Binary, op: str, left: ir.Expression, right: ir.Expression) -> ir.Expression:
         if self.can(op):
             return replace(old, left=left, right=right)
-        if op == "mod" and self.can("div") and _repeatable(left) and _repeatable(right):
+        if op == "mod" and self.can("div") and repeatable(left) and repeatable(right):
             quotient = ir.Binary("div", left, right, origin=old.origin)
             return ir.Binary("-", left, ir.Binary("*", quotient, right), origin=old.origin)
         return self.library.call("mod", left, right) if op == "mod" else replace(old, left=left, right=right)
@@ -261,7 +262,7 @@ class _Split(Rewriter):
     def power(self, old: ir.Expression, base: ir.Expression, exponent: ir.Expression) -> ir.Expression:
         """A small whole power as a product; any other is left to be reported."""
         new = self.expression(base)
-        if isinstance(exponent, ir.IntLiteral) and 1 <= exponent.value <= _POWER_LIMIT and _repeatable(new):
+        if isinstance(exponent, ir.IntLiteral) and 1 <= exponent.value <= _POWER_LIMIT and repeatable(new):
             product = new
             for _ in range(exponent.value - 1):
                 product = ir.Binary("*", product, new, origin=old.origin)
@@ -293,17 +294,6 @@ class _Split(Rewriter):
             case "atan", (one,):
                 return ir.Builtin("atan2", (one, ir.RealLiteral(1.0)), origin=expression.origin)
         return replace(expression, arguments=new)
-
-
-def _repeatable(value: ir.Expression) -> bool:
-    match value:
-        case ir.RealLiteral() | ir.IntLiteral() | ir.Name():
-            return True
-        case ir.Field(base=base) | ir.Unary(operand=base):
-            return _repeatable(base)
-        case ir.Index(base=base, indices=indices):
-            return _repeatable(base) and all(map(_repeatable, indices))
-    return False
 
 
 # ---- functions

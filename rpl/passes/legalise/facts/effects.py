@@ -212,3 +212,15 @@ def _could_be_quiet(routine: ir.Routine) -> bool:
                 if not isinstance(statement, _HARMLESS):
                     return False
     return True
+
+
+def repeatable(value: ir.Expression) -> bool:
+    """May it be written twice: is it a number, a variable, or a part of one, reached without a call?"""
+    match value:
+        case ir.RealLiteral() | ir.IntLiteral() | ir.Name():
+            return True
+        case ir.Field(base=base) | ir.Unary(operand=base):
+            return repeatable(base)
+        case ir.Index(base=base, indices=indices):
+            return repeatable(base) and all(map(repeatable, indices))
+    return False

@@ -16,7 +16,7 @@ from rpl import ir, registry
 from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
-from rpl.passes.legalise.context import Arm, Context
+from rpl.passes.legalise.context import Arm, Context, array
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.flow import ModalFlow
 from rpl.passes.legalise.facts.usage import doing
@@ -135,7 +135,7 @@ class Whereabouts:
         goal = constant(target, self.scope, self.unchanged)
         axes = None if near is not None else self.axes(goal)
         if axes is not None:
-            flange = None if self.arm is None else rigid.pose_of_matrix(_rows(self.arm.forward(_array(axes))))
+            flange = None if self.arm is None else rigid.pose_of_matrix(_rows(self.arm.forward(array(axes))))
             return Stand(axes, flange)
         pose = pose_of(goal)
         frames = self.flow.frames.get(id(move))
@@ -148,7 +148,7 @@ class Whereabouts:
     def nearest(self, flange: rigid.Pose | None, near: Joints) -> Joints | None:
         if self.arm is None or flange is None:
             return None
-        found = self.arm.nearest(_array(flange.matrix), _array(near))
+        found = self.arm.nearest(array(flange.matrix), array(near))
         return None if found is None else tuple(float(one) for one in found)
 
     def further(self, move: ir.Move, stand: Stand) -> Stand:
@@ -188,8 +188,8 @@ class Whereabouts:
             return None
         if self.converted and move.kind == "joint" and isinstance(goal, Target):
             return None  # what the source said about the posture is gone
-        matrix = _array(flange.matrix)
-        near = None if stand.joints is None else _array(stand.joints)
+        matrix = array(flange.matrix)
+        near = None if stand.joints is None else array(stand.joints)
         flags = dict(goal.flags) if isinstance(goal, Target) and self.notation is not None else {}
         flags = {name: value for name, value in flags.items() if name in self.notation.fields} if flags else {}
         found: Any = None
@@ -279,12 +279,6 @@ def _angle(one: rigid.Rotation, two: rigid.Rotation) -> float:
 
 def _far(one: rigid.Vector, two: rigid.Vector) -> float:
     return two.plus(one, -1.0).length
-
-
-def _array(values: Any) -> Any:
-    import numpy as np
-
-    return np.array(values, dtype=np.float64)
 
 
 def _rows(matrix: Any) -> list[list[float]]:

@@ -14,6 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant, lasting, real
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.effects import repeatable
 from rpl.passes.legalise.facts.entries import routines_beside
 from rpl.passes.legalise.facts.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.records.records import RECORDS, Records
@@ -301,7 +302,7 @@ class _ToAngles(WantedRewriter):
 
     def simple(self, value: ir.Expression) -> ir.Expression:
         """Something that can be written several times."""
-        return value if _repeatable(value) else self.kept(value, ir.RealType())
+        return value if repeatable(value) else self.kept(value, ir.RealType())
 
     def named(self, aggregate: ir.Aggregate, name: str) -> ir.Expression:
         """A component of a vector, rotation, pose or target that is written out, 0 when it is left out."""
@@ -528,17 +529,6 @@ def _is_literal(value: ir.Expression) -> bool:
     if isinstance(value, ir.Unary) and value.op == "-":
         return _is_literal(value.operand)
     return isinstance(value, ir.RealLiteral | ir.IntLiteral)
-
-
-def _repeatable(value: ir.Expression) -> bool:
-    match value:
-        case ir.RealLiteral() | ir.IntLiteral() | ir.Name():
-            return True
-        case ir.Field(base=base) | ir.Unary(operand=base):
-            return _repeatable(base)
-        case ir.Index(base=base, indices=indices):
-            return _repeatable(base) and all(map(_repeatable, indices))
-    return False
 
 
 def _mentions(value: ir.Expression, places: list[ir.Field]) -> bool:

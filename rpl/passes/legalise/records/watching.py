@@ -66,7 +66,8 @@ _ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt,
     unless=lambda context: (
         context.capabilities.interrupts.watched is not Watched.ALL
         and (context.capabilities.interrupts.watched is not Watched.INTERRUPTS)
-    )
+    ),
+    sees=("Search", "DeclareInterrupt", "concurrent move"),
 )
 def watching(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""

@@ -15,7 +15,7 @@ from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Postures, Rotation
 from rpl.passes.fold import constant, real
-from rpl.passes.legalise.context import Arm, Context, rules_of
+from rpl.passes.legalise.context import Arm, Context, array, rules_of
 from rpl.passes.legalise.facts.flow import Use, Uses
 from rpl.passes.legalise.places.postures.families import changed_posture, differing
 from rpl.passes.legalise.places.postures.flagwrites import FlagFlow, FlagValues, only_turns
@@ -448,7 +448,7 @@ class _Configurations(Rewriter):
             which = "tool" if use.frames.tool is None else "frame"
             reason = f"the {which} of its moves is not constant"
             return (self.implied(target, reason) if had and use.moved is None else None) or _Refused(reason)
-        matrix = _array(flange.matrix)
+        matrix = array(flange.matrix)
         notation = _notation(target.type.notation)
         if notation is None:
             return _Refused("the source language writes no configuration")
@@ -490,7 +490,7 @@ class _Configurations(Rewriter):
         assert self.arm is not None and self.to_arm is not None  # only with two arms
         arm = self.to_arm
         posture = None if joints is None else self.arm.posture(joints).branch
-        near = arm.home if joints is None else self.arm.same_posture(_array(joints), arm)
+        near = arm.home if joints is None else self.arm.same_posture(array(joints), arm)
         best, rank = None, (9, 0.0)
         for solution in arm.inverse(flange, near):
             # whole turns leave the posture as it is
@@ -501,7 +501,7 @@ class _Configurations(Rewriter):
                 if (apart, travel) < rank:
                     best, rank = choice, (apart, travel)
         if rank[0] and best is not None and joints is not None:
-            self.changed = changed_posture(self.arm, _array(joints), arm, best) or self.changed
+            self.changed = changed_posture(self.arm, array(joints), arm, best) or self.changed
         return best
 
     def tell_changed(self, what: str, expression: ir.Expression) -> None:
@@ -521,9 +521,9 @@ class _Configurations(Rewriter):
         if given is None or len(given) != self.arm.axes or self.to_arm.axes > len(_AXES):
             self.context.diagnostics.report(JOINTS_LOST, self.at(expression), arm=self.to_arm.name)
             return super().expression(expression)
-        flange = self.arm.forward(_array(given))
+        flange = self.arm.forward(array(given))
         self.changed = None
-        found = self.on_other_arm(flange, _array(given))
+        found = self.on_other_arm(flange, array(given))
         if self.changed is not None and found is not None:
             self.tell_changed("joint position", expression)
         if found is None:
@@ -587,12 +587,6 @@ def _is_taught(expression: ir.Aggregate) -> bool:
 def _notation(name: str) -> Notation | None:
     make = registry.dialect(name).notation
     return make() if make is not None else None
-
-
-def _array(values: Any) -> Any:
-    import numpy as np
-
-    return np.array(values, dtype=np.float64)
 
 
 def _any(arm: Arm) -> Any:

@@ -11,7 +11,7 @@ from typing import Any
 from rpl import ir, registry
 from rpl.passes import rigid
 from rpl.passes.fold import constant
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, array
 from rpl.passes.legalise.facts.taughtvalues import tell_written
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -78,9 +78,7 @@ class _Known(Rewriter):
             return None
         notation, model = make(), _any(arm)
         flags = {name: value for name, value in place.flags if name in notation.fields}
-        return (
-            notation.select(model, _array(flange), flags, None).joints if len(flags) == len(notation.fields) else None
-        )
+        return notation.select(model, array(flange), flags, None).joints if len(flags) == len(notation.fields) else None
 
     def frame(self, given: ir.Expression, part: str) -> rigid.Pose | None:
         """A constant tool or work object as a pose."""
@@ -107,12 +105,6 @@ class _Known(Rewriter):
 def _any(arm: Any) -> Any:
     """A notation is written against the emulator's own model, which every arm is."""
     return arm
-
-
-def _array(values: Any) -> Any:
-    import numpy as np
-
-    return np.array(values, dtype=np.float64)
 
 
 __all__ = ["known_joints"]

@@ -16,7 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, array
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.whereabouts import Joints, Stand, Whereabouts
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -73,7 +73,7 @@ class _Turns(Rewriter):
         for module, routine in self.scopes.routines():
             scope = self.scopes.routine(module, routine)
             near += [_near(one, scope) for one in walk(*bodies(routine)) if isinstance(one, ir.Move)]
-        rows = _array([self.arm.home, *(one for one in (*known, *near) if one and len(one) == self.arm.axes)])
+        rows = array([self.arm.home, *(one for one in (*known, *near) if one and len(one) == self.arm.axes)])
         return rows.min(axis=0), rows.max(axis=0)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
@@ -89,7 +89,7 @@ class _Turns(Rewriter):
         elif end.joints is not None and end.flange is not None and not self.displaced(move):
             return self.to_joints(move, end.joints) if self.turns(start.joints, end) else move
         else:
-            others = self.others(start.joints, _array(near)) if len(near) == self.arm.axes else []
+            others = self.others(start.joints, array(near)) if len(near) == self.arm.axes else []
         if others:
             self.context.diagnostics.report(TURN, move.origin, axes=_named(others))
         return move
@@ -110,16 +110,16 @@ class _Turns(Rewriter):
     def turns(self, before: Joints | None, end: Stand) -> bool:
         """Would the target's controller come there with other joints?"""
         assert end.joints is not None and end.flange is not None  # `move` looked
-        goal = _array(end.joints)
+        goal = array(end.joints)
         if before is None or self.notation is None:
             return bool(self.others(None, goal))
         flags = self.notation.encode(self.arm, goal)
-        found = self.notation.select(self.arm, _array(end.flange.matrix), flags, _array(before)).joints
+        found = self.notation.select(self.arm, array(end.flange.matrix), flags, array(before)).joints
         return found is None or float(abs(found - goal).max()) > _SAME_DEG
 
     def others(self, before: Joints | None, goal: Any) -> list[int]:
         """Axes that the shortest way takes to another turn, from the joints before or from any that may be."""
-        places = (self.low, self.high) if before is None else (_array(before), _array(before))
+        places = (self.low, self.high) if before is None else (array(before), array(before))
         found: set[int] = set()
         for place in places:
             away = abs(self.arm.nearest_turn(goal, place) - goal) > _OTHER_TURN_DEG
@@ -150,12 +150,6 @@ def _near(move: ir.Move, scope: Scope) -> Joints | None:
 def _named(axes: list[int]) -> str:
     words = [f"axis {axis + 1}" for axis in axes]
     return words[0] if len(words) == 1 else ", ".join(words[:-1]) + f" and {words[-1]}"
-
-
-def _array(values: Any) -> Any:
-    import numpy as np  # most translations ask nothing of the arm
-
-    return np.array(values, dtype=np.float64)
 
 
 __all__ = ["told_turns"]
