@@ -325,6 +325,8 @@ class Forward(ABC, Generic[S]):
             again = self.joined(start, end)
             if again == start:
                 left = {ir.Loop: None, ir.Repeat: end}.get(loop.__class__, start)
+                if _has_a_pass(loop) and start is not None:
+                    left = None if end is None else self.transfer(loop, end)
                 return self.joined(left, skipped, *jumps.breaks)
             start = again
         return self.unknown
@@ -460,6 +462,14 @@ def _cannot_fail(statement: ir.Statement) -> bool:
         case ir.Assign(target=ir.System(indices=()), value=value):
             return all(isinstance(one, _SURE) for one in walk(value))
     return isinstance(statement, ir.Nothing | ir.Label | ir.Goto | ir.ExitLoop | ir.NextPass)
+
+
+def _has_a_pass(loop: ir.Statement) -> bool:
+    """Does the body of a counting loop surely run?"""
+    match loop:
+        case ir.For(start=ir.IntLiteral(value=start), stop=ir.IntLiteral(value=stop), step=None):
+            return start <= stop
+    return False
 
 
 # ---- where a program is entered

@@ -8,23 +8,24 @@ not come early. Nor must what lasts, and the end, of a routine that an interrupt
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
-from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.advance import is_flag, touches
+from rpl.passes.legalise.facts.forward import Forward, beside
 from rpl.passes.legalise.facts.runbeside import FLAGS, RunBeside, assigned_name
 from rpl.passes.legalise.facts.usage import base_name, each_expression, each_statement
 from rpl.passes.legalise.interrupts.resumes import left_by_resumes
-from rpl.passes.legalise.rewriting.editing import edit_bodies, exits
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 
 _TIMED = frozenset(("timer", "timer_stopped", "timer_positive"))
 _MOVES = (ir.Move, ir.MoveExternal, ir.Spline)
-_LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 
 
 @legalising()
@@ -34,34 +35,36 @@ def stand_first(program: ir.Program, context: Context) -> ir.Program:
     if source.runs_ahead_of != "fly_by" or target.runs_ahead_of != "all":
         return program
     facts = _Facts.of(program)
-    scopes = ProgramScope(program)
-    facts = _with_ends(program, facts, scopes, target.stop_statements)
-    modules = []
-    for module in program.modules:
-        routines = []
-        for routine in module.routines:
-            if routine.name.lower() in facts.beside:
-                routines.append(routine)  # the program waits, or drives nothing
-                continue
-            left = routine.name.lower() in facts.left
-            worker = _Standing(facts, scopes.routine(module, routine), target.stop_statements, left)
-            routines.append(worker.routine(routine))
-        modules.append(replace(module, routines=tuple(routines)))
-    return replace(program, modules=tuple(modules))
+    ways = _Ways(program, facts, target.stop_statements)
+
+    def body(old: ir.Body) -> ir.Body:
+        done = map_body(old, change)
+        return (*done, ir.WaitForMotion()) if id(old) in ways.ended else done
+
+    def change(statement: ir.Statement) -> ir.Body:
+        done = inside(statement, body)
+        if id(statement) not in ways.waits:
+            return (done,)
+        bare = replace(done, origin=replace(statement.origin, comments=()))
+        return (ir.WaitForMotion(origin=statement.origin), bare)
+
+    def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        # beside the program, what runs waits, or drives nothing
+        return routine if routine.name.lower() in facts.beside else edit_bodies(routine, body)
+
+    return edit_each(program, work)
 
 
 @dataclass(frozen=True, slots=True)
 class _Facts:
     """Names in lower case. beside: routines that interrupts and background tasks run; changed: variables that these
-    assign; movers: routines that drive; halting: those of them that end with a stop point; watchful: routines that
-    contain a statement which must not come early; read: variables that the routines beside look at; left: routines that
-    an interrupt may leave."""
+    assign; movers: routines that drive; watchful: routines that contain a statement which must not come early; read:
+    variables that the routines beside look at; left: routines that an interrupt may leave."""
 
     beside: frozenset[str]
     changed: frozenset[str]
     movers: frozenset[str]
     watchful: frozenset[str]
-    halting: frozenset[str] = frozenset()
     read: frozenset[str] = frozenset()
     left: frozenset[str] = frozenset()
 
@@ -110,45 +113,70 @@ class _Facts:
         return found
 
 
-def _with_ends(program: ir.Program, facts: _Facts, scopes: ProgramScope, stops: frozenset[str]) -> _Facts:
-    """The facts with the routines that end with a stop point, those by what they call included."""
-    while True:
-        halting = set()
-        for module in program.modules:
-            for routine in module.routines:
-                left = routine.name.lower() in facts.left
-                worker = _Standing(facts, scopes.routine(module, routine), stops, left)
-                if routine.name.lower() in facts.movers and worker.ends_moving(routine):
-                    halting.add(routine.name.lower())
-        if halting <= facts.halting:
-            return facts
-        facts = replace(facts, halting=facts.halting | halting)
+class _Ways(Forward[bool]):
+    """Does the source stand, and the target perhaps not yet? `waits`: statements that must not come then; `ended`:
+    bodies behind which it must stand."""
 
+    def __init__(self, program: ir.Program, facts: _Facts, stops: frozenset[str]) -> None:
+        super().__init__(program, False, True)
+        self.facts, self.stops = facts, stops
+        self.waits: set[int] = set()
+        self.ended: set[int] = set()
+        self.closed = set(map(id, self.closed_bodies())) - {id(())}
+        self.solve(self.by_name, beside(program))
 
-class _Standing:
-    def __init__(self, facts: _Facts, scope: Scope, stops: frozenset[str], left: bool) -> None:
-        self.facts, self.scope, self.stops, self.left = facts, scope, stops, left
-        self.jumps: dict[str, bool] = {}  # label -> does a jump come there while the target still moves?
+    def closed_bodies(self) -> Iterator[ir.Body]:
+        """Those of routines that an interrupt may leave, and of loops whose counter something beside looks at."""
+        for one in self.summaries.values():
+            if one.routine.name.lower() in self.facts.left:
+                yield from bodies(one.routine)
+            for node in walk(*bodies(one.routine)):
+                if isinstance(node, ir.For) and node.counter.lower() in self.facts.read:
+                    yield node.body
 
-    def routine(self, routine: ir.Routine) -> ir.Routine:
-        """With its other bodies: what comes to those may come from a move."""
-        return edit_bodies(routine, lambda body: self.whole(body, body is not routine.body)[0])
+    def join(self, one: bool, other: bool) -> bool:
+        return one or other
 
-    def ends_moving(self, routine: ir.Routine) -> bool:
-        """May the target still move when the routine ends?"""
-        ways_out = [routine.body, *(handler.body for handler in routine.handlers)]
-        return any(self.whole(body, body is not routine.body)[1] for body in ways_out)
+    def transfer(self, statement: ir.Statement, before: bool) -> bool:
+        if isinstance(statement, ir.Move):
+            return statement.blend in (None, ir.BlendStop()) and not statement.concurrent
+        return before
 
-    def whole(self, body: ir.Body, moving: bool) -> tuple[ir.Body, bool]:
-        """The body of a routine; again where a jump back turns out to come from a move."""
-        if not body:
-            return body, moving
-        begins = moving
-        while True:
-            known = dict(self.jumps)
-            done, moving = self.body(body, begins)
-            if known == self.jumps:
-                return ((*done, ir.WaitForMotion()), False) if moving and self.left else (done, moving)
+    def entered(self, state: bool, here: Scope, there: Scope) -> bool:
+        return False  # a call of a routine in which it matters waits itself
+
+    def left(self, before: bool, end: bool, routine: ir.Routine, there: Scope, here: Scope) -> bool:
+        return end if routine.name.lower() in self.facts.movers else before
+
+    def may_leave(self, call: ir.CallRoutine | ir.Call) -> bool:
+        return False  # an interrupt brakes the robot before it leaves the routine
+
+    def handled(self, state: bool) -> tuple[bool, bool | None, bool | None]:
+        return super().handled(True)  # an error may come from a move
+
+    def body(self, body: ir.Body, state: bool | None) -> bool | None:
+        end = super().body(body, state)
+        if end and id(body) in self.closed:
+            self.ended.add(id(body))
+            return False
+        return end
+
+    def inner(self, statement: ir.Statement, state: bool | None) -> bool | None:
+        if state is not None:
+            if isinstance(statement, ir.MoveExternal | ir.Spline):
+                return False
+            if statement.__class__.__name__ in self.stops or touches(statement, self.scope):
+                state = False
+            elif state and not isinstance(statement, ir.Move | ir.Label | ir.Goto) and self.must_wait(statement):
+                self.waits.add(id(statement))
+                state = False
+        return super().inner(statement, state)
+
+    def must_wait(self, statement: ir.Statement) -> bool:
+        here = self.run.of.routine.name.lower()
+        if here in self.facts.beside:
+            return False
+        return self.facts.early(statement) or (here in self.facts.left and self.lasts(statement))
 
     def lasts(self, statement: ir.Statement) -> bool:
         """Is it seen later that the statement was reached, in a routine that an interrupt may leave?"""
@@ -162,85 +190,6 @@ class _Standing:
             case ir.Return() | ir.CallRoutine() | ir.Do() | ir.Message() | ir.Raise():
                 return True
         return False
-
-    def behind(self, statement: ir.Statement, moving: bool) -> bool:
-        """What holds behind a move of its own kind, a label and a jump."""
-        match statement:
-            case ir.Goto(label=label):
-                self.jumps[label.lower()] = self.jumps.get(label.lower(), False) or moving
-            case ir.Label(name=name):
-                return moving or self.jumps.get(name.lower(), False)
-        return False
-
-    def body(self, body: ir.Body, moving: bool) -> tuple[ir.Body, bool]:
-        """`moving`: the source stands here, the target perhaps not yet. Also whether that holds at the end."""
-        done: list[ir.Statement] = []
-        for statement in body:
-            match statement:
-                case ir.Move(blend=blend, concurrent=concurrent):
-                    moving = blend in (None, ir.BlendStop()) and not concurrent
-                    done.append(statement)
-                    continue
-                case ir.MoveExternal() | ir.Spline() | ir.Label() | ir.Goto():
-                    moving = self.behind(statement, moving)
-                    done.append(statement)
-                    continue
-            if statement.__class__.__name__ in self.stops or touches(statement, self.scope):
-                moving = False
-            elif moving and (self.facts.early(statement) or (self.left and self.lasts(statement))):
-                done.append(ir.WaitForMotion(origin=statement.origin))
-                statement = replace(statement, origin=replace(statement.origin, comments=()))
-                moving = False
-            inside = moving
-            ends: list[bool] = []
-
-            again = isinstance(statement, _LOOPS)
-            counted = isinstance(statement, ir.For) and statement.counter.lower() in self.facts.read
-
-            def deeper(
-                inner: ir.Body,
-                inside: bool = inside,
-                ends: list[bool] = ends,
-                again: bool = again,
-                counted: bool = counted,
-            ) -> ir.Body:
-                new, end = self.body(inner, inside)
-                if end and counted:
-                    new, end = (*new, ir.WaitForMotion()), False
-                elif end and again and not inside:  # each further pass begins as the one before it ends
-                    new, end = self.body(inner, True)
-                ends.append(end or (again and exits(inner) and self.drives(inner)))
-                return new
-
-            done.append(rewrite_parts(statement, lambda expression: expression, deeper))
-            moving = any(ends) or (moving and not _surely_inside(statement))
-            if isinstance(statement, ir.CallRoutine) and statement.name.lower() in self.facts.movers:
-                moving = statement.name.lower() in self.facts.halting
-        return tuple(done), moving
-
-    def drives(self, body: ir.Body) -> bool:
-        """Does a move of the body end at a stop point?"""
-        for node in walk(*body):
-            match node:
-                case ir.Move(blend=None | ir.BlendStop(), concurrent=False):
-                    return True
-                case ir.CallRoutine(name=name) if name.lower() in self.facts.halting:
-                    return True
-        return False
-
-
-def _surely_inside(statement: ir.Statement) -> bool:
-    """Does one of the statement's bodies run in any case?"""
-    match statement:
-        case ir.If(otherwise=otherwise):
-            return bool(otherwise)
-        case ir.Switch(default=default):
-            return default is not None
-        case ir.Repeat() | ir.Loop():
-            return True
-        case ir.For(start=ir.IntLiteral(value=start), stop=ir.IntLiteral(value=stop), step=None):
-            return start <= stop
-    return False
 
 
 def _looked_at(routine: ir.Routine) -> set[str]:
