@@ -1,8 +1,8 @@
 """Long runs of moves through the passes as a few moves: of each stretch of a run one move whose numbers are columns.
 
 A run goes in as ordinary moves with stretches between them. Its first two and last two moves are ordinary ones, and so
-is the first move in which a number has a sign or a way of being written that none before it had. Why nothing wrong can
-come out in silence:
+are the first move in which a number has a sign or a way of being written that none before it had, and the first two
+that share just these numbers. Why nothing wrong can come out in silence:
 
 - Whatever asks for a value that the moves of the run do not have alike raises LooksInsideError; then the run is
   translated move by move.
@@ -111,6 +111,8 @@ def _entered(run: ir.Run, found: list[Stretch]) -> list[ir.Statement]:
     ordinary = {0, 1, len(run) - 2, len(run) - 1}
     for column in kinds[1:-1].T:
         ordinary.update((np.unique(column, return_index=True)[1] + 1).tolist())
+    for at in (np.unique(_repeated(columns.values)[1:-1], return_index=True)[1] + 1).tolist():
+        ordinary.update((at - 1, at))
     if len(run) < 2 * SHORTEST or len(ordinary) > _MOST:
         return list(run.moves())
     make = run.maker()
@@ -136,6 +138,16 @@ def _kinds(spellings: list[tuple[str, ...]], values: NDArray[np.float64]) -> NDA
     whole = np.array([["." not in one for one in row] for row in spellings])
     kinds: NDArray[np.int64] = whole * 4 + np.signbit(values) * 2 + (values == 0.0)
     return kinds
+
+
+def _repeated(values: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Which numbers of a move are those of the move before, as bits: passes may compare a move with its neighbour."""
+    import numpy as np
+
+    repeated = np.zeros(values.shape, dtype=np.int64)
+    repeated[1:] = values[1:] == values[:-1]
+    bits: NDArray[np.int64] = repeated @ (1 << np.arange(values.shape[1], dtype=np.int64))
+    return bits
 
 
 def _column_move(stretch: Stretch) -> ir.Move:

@@ -63,12 +63,13 @@ Write = Callable[[list[Rows], str], Source]
 
 @dataclass(frozen=True)
 class Asked:
-    """A list of points: how many, around which numbers, which of them are disturbed."""
+    """A list of points: how many, around which numbers, which are disturbed and which are those of the point before."""
 
     seed: int
     count: int
     width: float
     disturbed: tuple[tuple[int, int, str], ...]
+    repeated: tuple[tuple[int, int], ...] = ()
 
     def rows(self) -> Rows:
         chance = random.Random(self.seed)
@@ -76,6 +77,9 @@ class Asked:
         rows = [[f"{middle + chance.uniform(-1, 1) * self.width:.3f}" for middle in middles] for _ in range(self.count)]
         for at, column, spelling in self.disturbed:
             rows[at % self.count][column] = spelling
+        for at, columns in self.repeated:
+            for column in range(columns):
+                rows[at % self.count][column] = rows[(at - 1) % self.count][column]
         return rows
 
 
@@ -86,6 +90,7 @@ LISTS = st.builds(
     st.integers(1, 60),
     st.sampled_from((0.0, 0.0004, 1.0, 30.0, 400.0)),
     st.lists(st.tuples(st.integers(0, 10**3), st.integers(0, 5), SPELLINGS), max_size=4).map(tuple),
+    st.lists(st.tuples(st.integers(0, 10**3), st.integers(1, 6)), max_size=3).map(tuple),
 )
 Written = tuple[list[tuple[str, bytes]], list[tuple[str, int, int, str]], object, object]
 

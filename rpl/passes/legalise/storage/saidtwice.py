@@ -59,7 +59,7 @@ def _again(first: ir.Statement, second: ir.Statement) -> bool:
     """Does the second do what the first has just done? Nothing then lies between that could have changed the place."""
     if is_left_out(second):
         return _of_one(first, second) and (isinstance(first, ir.Opaque) or is_left_out(first))
-    if first != second or second.origin.comments:
+    if not isinstance(first, ir.Assign | ir.Opaque) or first != second or second.origin.comments:
         return False
     if not isinstance(first, ir.Assign) or not isinstance(second, ir.Assign):
         return isinstance(first, ir.Opaque) and _of_one(first, second)
