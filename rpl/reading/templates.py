@@ -34,6 +34,7 @@ _PLACES = re.compile(
 _NAME = frozenset(ascii_letters + "_")
 _QUOTES = "\"'"
 _MOST = 20_000  # templates and proofs that are kept
+_LONGEST = 2_000  # characters of a statement of which there may be many
 
 
 class _Names(dict[str, str]):
@@ -76,6 +77,8 @@ class Templates:
 
     def read(self, text: str, origin: Origin) -> Element | tuple[Element, ...]:
         """What the statement is. Raises StatementError."""
+        if len(text) > _LONGEST:
+            return self.usual(text, origin)
         parts = _PLACES.split(text)
         if len(parts) == 1:
             return self.usual(text, origin)
