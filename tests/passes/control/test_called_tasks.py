@@ -239,12 +239,13 @@ def test_a_program_that_only_watches(target: str) -> None:
 
 
 @pytest.mark.parametrize("case", UNFIT)
-def test_what_does_not_fit_is_named(case: str) -> None:
+@pytest.mark.parametrize("target", TARGETS)
+def test_what_does_not_fit_is_refused_at_the_start(case: str, target: str) -> None:
     diagnostics = Diagnostics()
     read = project(UNFIT[case], ONE_MOVE, "True", "True")
-    translate_program(read, "krl", ROBOT, None, diagnostics)
-    assert "moving-task-kept" in {item.code.name for item in diagnostics}
-    assert diagnostics.of(Severity.LOSS)
+    translate_program(read, target, ROBOT, None, diagnostics)
+    (told,) = (item for item in diagnostics.of(Severity.LOSS) if item.code.name == "moving-task-kept")
+    assert "run approach()" in told.origin.text
 
 
 def test_targets_whose_tasks_move_keep_them() -> None:

@@ -6,6 +6,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.interrupts.tasks.taskreferences import SHARED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
+from rpl.passes.legalise.tasks.calledtasks import KEPT
 from rpl.passes.legalise.tasks.secondstarts import SURELY
 
 __all__ = ["TASKS"]
@@ -62,5 +63,6 @@ TASKS = (
     Refusal("an operation on another task that the target has not", TASK, (ir.TaskControl,), _task),
     Refusal("a task that never ends, started once more beside itself", SURELY),
     Refusal("an argument of a task that the task or what starts it may change", SHARED),
+    Refusal("a task that moves the robot while the program does not just look at what ends it", KEPT),
     Refusal("tasks that wait for each other at a point", MEETING, (ir.Meet,), _meeting),
 )

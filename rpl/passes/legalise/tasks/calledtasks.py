@@ -4,7 +4,7 @@ meanwhile to end it becomes an interrupt that brakes and leaves the routine.
 
 What the program did in between stays behind the call, where the task has ended: a loop that waits finds the condition
 that came. Work that does not end the task becomes a task of its own, which the program joins. Only where that is known
-for all starts of a task; the others are named by the passes that follow.
+for all starts of a task; the others are refused, and so is a wait for a limited time, which would not end the motion.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.rewriting.beside import closure, local_names, tidy
-from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
+from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.tasks.watchedloops import Event, UnfitError, WatchedTask
@@ -29,16 +30,12 @@ CALLED = code(
     Severity.WARNING,
     "task {name}, which moves the robot, is called as a routine; what the program does meanwhile {how}",
 )
-LIMITED = code(
-    "moving-task-limit",
-    Severity.WARNING,
-    "the program waits for a limited time while task {name} moves the robot; here the time counts from the end of the"
-    " motion, and its end does not stop the robot",
-)
 KEPT = code(
     "moving-task-kept",
-    Severity.WARNING,
+    Severity.LOSS,
     "task {name} moves the robot and cannot be called as a routine: {reason}",
+    "let the program itself drive, and watch in an interrupt or in a task what has to stop it",
+    stops=True,
 )
 _DRIVES = (ir.Move, ir.MoveExternal, ir.Spline)
 _TIME = (*_DRIVES, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.StopMotion, ir.Dialog)
@@ -57,13 +54,22 @@ def called_tasks(program: ir.Program, context: Context) -> ir.Program:
     for name in dict.fromkeys(one.task.lower() for one in controls if one.op == "start"):
         if name not in drives:
             continue
-        worker = _Called(done, context, name)
         try:
-            done = worker.program_with_calls()
+            done = _Called(done, context, name).program_with_calls()
         except UnfitError as reason:
-            where = next(one.origin for one in controls if one.task.lower() == name)
-            context.diagnostics.report(KEPT, where, name=name, reason=str(reason))
+            done = _refused(done, context, name, str(reason))
     return done
+
+
+def _refused(program: ir.Program, context: Context, name: str, reason: str) -> ir.Program:
+    """The program without the starts of a task that would drive the robot with nobody to stop it."""
+
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.TaskControl) and statement.op == "start" and statement.task.lower() == name:
+            return (stopped(statement, KEPT, context, name=name, reason=reason),)
+        return (inside(statement, lambda body: map_body(body, change)),)
+
+    return edit_all(program, lambda body: map_body(body, change))
 
 
 @dataclass(slots=True)
@@ -86,7 +92,6 @@ class _Called:
             raise UnfitError("the program has no such routine")
         timed = closure(self.program, _TIME)
         self.task = WatchedTask(self.context, found[0], timed, closure(self.program, _DRIVES))
-        self.task.routines = {r.name.lower(): r for m in self.program.modules for r in m.routines}
 
     def program_with_calls(self) -> ir.Program:
         asked = [node for node in self.nodes() if node.task.lower() == self.name]
@@ -106,8 +111,6 @@ class _Called:
         how = "is done by a task beside it" if self.made else "is done behind it"
         how = how if not self.routines else "to end it is an interrupt"
         self.context.diagnostics.report(CALLED, asked[0].origin, name=self.task.routine.name, how=how)
-        if self.task.limited:
-            self.context.diagnostics.report(LIMITED, asked[0].origin, name=self.task.routine.name)
         made = (*self.routines, *self.made)
         done = exposed(done, called_names(made))
         return with_support(done, self.context, self.data, made, modules[0].task)

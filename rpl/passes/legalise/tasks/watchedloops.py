@@ -7,7 +7,7 @@ that waits (a join, a wait for a condition, a loop that looks in each pass), the
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -18,7 +18,6 @@ from rpl.passes.legalise.rewriting.beside import moves_or_waits
 from rpl.passes.legalise.rewriting.editing import map_body, negation
 from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
 from rpl.passes.legalise.settings.movesettings import plain
-from rpl.passes.legalise.tasks.limitedwaits import looked_for
 
 _WAITING = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Pulse)
 _STOPPING = (ir.StopMotion, ir.ClearMotion, ir.StartMotion)
@@ -43,16 +42,13 @@ class Event:
 
 @dataclass(slots=True)
 class WatchedTask:
-    """The task's routine; routines (folded) that take time, that drive; `hidden`: names unseen by interrupts;
-    `routines`: all, by folded name; `limited`: some call has waited for a limited time."""
+    """The task's routine; routines (folded) that take time, that drive; `hidden`: names unseen by interrupts."""
 
     context: Context
     routine: ir.Routine
     timed: frozenset[str]
     driving: frozenset[str]
     hidden: frozenset[str] = frozenset()
-    routines: Mapping[str, ir.Routine] = field(default_factory=dict)
-    limited: bool = False
     own: frozenset[str] = field(init=False)
     ended: frozenset[str] = field(init=False)
     events: list[Event] = field(default_factory=list)
@@ -132,8 +128,6 @@ class WatchedTask:
                 done, after = self.wait(first, after)
             case ir.While() | ir.Loop() | ir.Repeat():
                 done, after = self.loop(first, after)
-            case ir.Assign(value=ir.Call() as call):
-                done, after = self.limited_wait(first, call, after)
             case _:
                 raise UnfitError("what the program does meanwhile takes time")
         return before, self.events, self.quiet((*done, *after))
@@ -204,16 +198,6 @@ class WatchedTask:
             return (wait,), after
         hit, rest = self.behind(_joined(watched, "cor"), after)
         return (replace(wait, condition=ir.Binary("cor", wait.condition, hit)),), rest
-
-    def limited_wait(self, first: ir.Assign, call: ir.Call, after: ir.Body) -> tuple[ir.Body, ir.Body]:
-        """A function that waits no longer than a time: where the task has ended by itself, it waits from then on."""
-        condition = looked_for(call, self.routines)
-        if condition is None:
-            raise UnfitError("what the program does meanwhile takes time")
-        hit, rest = self.behind(condition, after)
-        self.limited = True
-        came = ir.Assign(first.target, ir.BoolLiteral(True))
-        return (ir.If(((hit, (came,)),), (first,), origin=first.origin),), rest
 
     def loop(self, loop: ir.While | ir.Loop | ir.Repeat, after: ir.Body) -> tuple[ir.Body, ir.Body]:
         """A loop that looks: each branch ends the task, or has found it ended."""
