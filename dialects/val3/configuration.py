@@ -21,7 +21,9 @@ from rpl.errors import SourceError
 from rpl.registry import words
 
 FREE: Final = 2
-WORDS: Final = {name: tuple(text.split())[:3] for name, text in words("val3").pairs("configuration").items()}
+_ALL_WORDS: Final = {name: tuple(text.split()) for name, text in words("val3").pairs("configuration").items()}
+WORDS: Final = {name: every[:3] for name, every in _ALL_WORDS.items()}
+SAME: Final = tuple(every[3] for every in _ALL_WORDS.values())
 _NUMBERS = re.compile(r"\{([^{}]*)\}")
 
 
@@ -79,9 +81,9 @@ class Val3Notation:
     def format_pose(self, model: RobotModel, matrix: FloatArray, joints: FloatArray | None) -> str:
         """`{{x,y,z,rx,ry,rz},{righty,epositive,wpositive}}`; without joints the configuration is `same`."""
         numbers = ",".join(format_number(float(value), 6) for value in self.values_of(matrix[None])[0])
-        words = ["ssame", "esame", "wsame"]
+        words = SAME
         if joints is not None:
-            words = [WORDS[name][value] for name, value in self.encode(model, joints).items()]
+            words = tuple(WORDS[name][value] for name, value in self.encode(model, joints).items())
         return f"{{{{{numbers}}},{{{','.join(words)}}}}}"
 
     def poses_of(self, values: FloatArray) -> FloatArray:

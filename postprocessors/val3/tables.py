@@ -21,9 +21,8 @@ RESERVED = words(
     getMonitorSpeed here herej interpolateL isEmpty isPowered isSettled jointToPoint left len limit link ln log
     logMsg max mid min movec movej movel open pointToJoint popUpMsg position power put putln resetMotion
     restartMove right round roundDown roundUp sel setFrame setMonitorSpeed sin size sqrt start stop stopMove tan
-    taskKill taskResume taskStatus taskSuspend toNum toString trunc userPage wait waitEndMove watch off Cartesian
-    righty lefty ssame sfree epositive enegative esame efree wpositive wnegative wsame wfree"""
-)
+    taskKill taskResume taskStatus taskSuspend toNum toString trunc userPage wait waitEndMove watch off Cartesian"""
+).union(*map(words, shared_words("val3").pairs("configuration").values()))
 LONGEST_NAME = 15
 NUMBERS = NumberStyle(exponent="")
 

@@ -34,7 +34,17 @@ def own_words(value: object) -> Iterator[str]:
             yield from own_words(inner)
 
 
-TABLES = [(language, key) for language in LANGUAGES for key in registry.words(language).table]
+def holds_words(value: object) -> bool:
+    """Tables of numbers have names for their numbers, by which the code asks for them."""
+    return not isinstance(value, dict) or any(isinstance(inner, str | dict) for inner in value.values())
+
+
+TABLES = [
+    (language, key)
+    for language in LANGUAGES
+    for key, value in registry.words(language).table.items()
+    if holds_words(value)
+]
 
 
 @pytest.mark.parametrize(("language", "key"), TABLES)

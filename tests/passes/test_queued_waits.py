@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from rpl.diagnostics import Diagnostics, Severity
+from rpl.diagnostics import Diagnostics
 from rpl.ir.rules import Rules
 from rpl.passes.scope import rules_of
 from rpl.project import ReadProgram, read_sources
@@ -78,23 +78,6 @@ RUN = {
 
 
 @cache
-def _without_clocks(target: str) -> bool:
-    """Is a stop watch refused there? Then these programs are, for they tell their times by one."""
-    found = Diagnostics()
-    translate_program(_read("TIMER 1 = 0\nt1 = TIMER(1)"), target, ARM, None, found)
-    return bool(found.of(Severity.LOSS))
-
-
-def _clock_lines(parts: tuple[str, str]) -> list[int]:
-    """The lines of the program that use the stop watch."""
-    lines = ["", "", *parts[0].splitlines(), "", *parts[1].splitlines()]
-    return [number for number, line in enumerate(lines, 1) if "TIMER" in line]
-
-
-def test_stop_watches_are_refused_in_one_language_only() -> None:
-    assert [target for target in target_names() if _without_clocks(target)] == ["val3"]
-
-
 @pytest.mark.parametrize("what", RUN)
 @pytest.mark.parametrize("target", ["own", *target_names()])
 def test_the_robot_pauses_and_the_program_goes_on(what: str, target: str) -> None:
@@ -103,13 +86,6 @@ def test_the_robot_pauses_and_the_program_goes_on(what: str, target: str) -> Non
     if target != "own":
         diagnostics = Diagnostics()
         files = translate_program(read, target, ARM, None, diagnostics).files
-        if _without_clocks(target):
-            refused = {item.origin.line for item in diagnostics.of(Severity.LOSS)}
-            assert refused >= set(_clock_lines(RUN[what]))
-            back = read_sources([source_from_bytes(one.path, one.data) for one in files], target, Diagnostics())
-            result = run_program(back.program, ARM, controller="plain")
-            assert result.status == "deadlock" and not _on(result.outputs)
-            return
         if target != "vplus":
             assert "pause-first" not in {item.code.name for item in diagnostics}
         program = read_sources([source_from_bytes(one.path, one.data) for one in files], target, Diagnostics()).program
