@@ -31,22 +31,36 @@ _R = TypeVar("_R")
 
 
 class Stretch:
-    """Moves first..end-1 of a run, for which one move stands. No node: a walk passes it by."""
+    """Moves first..end-1 of a run, for which one move stands. No node: a walk passes it by.
 
-    __slots__ = ("choices", "end", "first", "ordinary", "origin", "run", "spellings")
+    rows: of which moves of the run a column number has the numbers, ascending: those of the stretch, the ordinary ones
+    of the run, and the moves beside an ordinary one. A run of many stretches is so calculated about once."""
+
+    __slots__ = ("_apart", "_own", "choices", "end", "first", "ordinary", "origin", "rows", "run", "spellings")
 
     def __init__(
         self, run: Run, first: int, end: int, ordinary: tuple[int, ...], spellings: list[tuple[str, ...]]
     ) -> None:
         """ordinary: moves of the run for which no stretch stands. spellings: of the numbers of each move of the run."""
+        import numpy as np
+
         columns = run.columns
+        beside = {one for at in ordinary for one in (at - 1, at, at + 1) if 0 <= one < len(run)}
+        apart = sorted(one for one in beside if not first <= one < end)
+        self._own = sum(one < first for one in apart)
+        self.rows = np.array([*apart[: self._own], *range(first, end), *apart[self._own :]], dtype=np.int64)
+        self._apart = {int(at): row for row, at in enumerate(self.rows) if not first <= at < end}
         self.run, self.first, self.end, self.ordinary, self.spellings = run, first, end, ordinary, spellings
         self.choices: list[Choice] = []
         self.origin = Origin(columns.source, int(columns.starts[first]), int(columns.ends[end - 1]))
 
+    def row(self, at: int) -> int:
+        """Where in its columns the numbers of move `at` of the run are."""
+        return at - self.first + self._own if self.first <= at < self.end else self._apart[at]
+
 
 class Choice:
-    """A number that is written in two ways: in some moves as one literal, in the others as the other one."""
+    """A number that is written in two ways: in some rows as one literal, in the others as the other one."""
 
     __slots__ = ("answers", "no", "yes")
 
@@ -63,13 +77,16 @@ class LooksInsideError(Exception):
 
 
 class ColumnNumber:
-    """A number for each move of the run that `stretch` is of: those outside of the stretch answer questions too. kind:
-    what it says that it is, float or int (of which only the value as a float can be taken)."""
+    """A number for each of the rows of a stretch: those of moves outside of it answer questions too. kind: what it says
+    that it is, float or int (of which only the value as a float can be taken). shifted: it comes of the numbers of
+    neighbours, which the outermost rows have not."""
 
-    __slots__ = ("kind", "stretch", "values")
+    __slots__ = ("kind", "shifted", "stretch", "values")
 
-    def __init__(self, stretch: Stretch, values: NDArray[np.float64], kind: type = float) -> None:
-        self.stretch, self.values, self.kind = stretch, values, kind
+    def __init__(
+        self, stretch: Stretch, values: NDArray[np.float64], kind: type = float, shifted: bool = False
+    ) -> None:
+        self.stretch, self.values, self.kind, self.shifted = stretch, values, kind, shifted
 
     def __getattribute__(self, name: str) -> object:
         return object.__getattribute__(self, "kind" if name == "__class__" else name)
@@ -82,7 +99,8 @@ class ColumnNumber:
         if self._whole(other):
             raise LooksInsideError(self.stretch)
         with np.errstate(all="ignore"):
-            return _number(self.stretch, np.asarray(calculate(self.values, self._operand(other)), dtype=np.float64))
+            values = np.asarray(calculate(self.values, self._operand(other)), dtype=np.float64)
+        return _number(self.stretch, values, shifted=_shifted((self, other)))
 
     def _operand(self, other: object) -> float | NDArray[np.float64]:
         if type(other) is ColumnNumber and other.stretch is self.stretch:
@@ -126,13 +144,13 @@ class ColumnNumber:
 
     def __neg__(self) -> float:
         # A whole number has no negative zero.
-        return _number(self.stretch, 0.0 - self.values if self.kind is int else -self.values, self.kind)
+        return _number(self.stretch, 0.0 - self.values if self.kind is int else -self.values, self.kind, self.shifted)
 
     def __pos__(self) -> float:
         return cast(float, self)
 
     def __abs__(self) -> float:
-        return _number(self.stretch, abs(self.values), self.kind)
+        return _number(self.stretch, abs(self.values), self.kind, self.shifted)
 
     # ---- questions
 
@@ -210,8 +228,13 @@ class ColumnNumber:
     __copy__ = __deepcopy__ = __getstate__ = _refused
 
 
-def _number(stretch: Stretch, values: NDArray[np.float64], kind: type = float) -> float:
-    return cast(float, ColumnNumber(stretch, values, kind))
+def _number(stretch: Stretch, values: NDArray[np.float64], kind: type = float, shifted: bool = False) -> float:
+    return cast(float, ColumnNumber(stretch, values, kind, shifted))
+
+
+def _shifted(values: Iterable[object]) -> bool:
+    """Does any of these come of the numbers of neighbours?"""
+    return any(one.shifted for one in map(column_of, values) if one is not None)
 
 
 def column_of(value: object) -> ColumnNumber | None:
@@ -222,27 +245,30 @@ def column_of(value: object) -> ColumnNumber | None:
 def as_float(value: float) -> float:
     """float(value), of a column number too."""
     column = column_of(value)
-    return float(value) if column is None else _number(column.stretch, column.values)
+    return float(value) if column is None else _number(column.stretch, column.values, shifted=column.shifted)
 
 
 def in_row(value: float, at: int) -> float:
     """The number in one move of the run."""
     column = column_of(value)
-    return value if column is None else column.kind(column.values[at])
+    return value if column is None else column.kind(column.values[column.stretch.row(at)])
 
 
 def in_next_row(value: float, step: int) -> float:
     """The number of the next move (1) or the one before (-1) in each; at the end of the run that of the other side,
-    from where the way is as long."""
+    from where the way is as long. So it is in the rows whose neighbour is in no column: these are neither of the
+    stretch nor ordinary, and nothing that comes of them is asked for a neighbour again."""
     import numpy as np
 
     column = column_of(value)
     if column is None:
         return value
-    numbers = np.roll(column.values, -step)
-    end = -1 if step > 0 else 0
-    numbers[end] = column.values[end - step]
-    return _number(column.stretch, numbers, column.kind)
+    if column.shifted:
+        raise LooksInsideError(column.stretch)
+    rows = column.stretch.rows
+    missing = np.roll(rows, -step) != rows + step
+    numbers = np.where(missing, np.roll(column.values, step), np.roll(column.values, -step))
+    return _number(column.stretch, numbers, column.kind, shifted=True)
 
 
 def chosen(answer: float, yes: Expression, no: Expression) -> Expression:
@@ -257,7 +283,8 @@ def chosen(answer: float, yes: Expression, no: Expression) -> Expression:
     column.stretch.choices.append(Choice(answers, yes, no))
     import numpy as np
 
-    number = _number(column.stretch, np.where(answers, one, other))
+    shifted = _shifted((answer, *(each.value for each in (yes, no) if isinstance(each, IntLiteral | RealLiteral))))
+    number = _number(column.stretch, np.where(answers, one, other), shifted=shifted)
     return RealLiteral(number, f"{CHOSEN}{len(column.stretch.choices) - 1}")
 
 
@@ -279,7 +306,7 @@ def by_row(function: Callable[[*_T], _R]) -> Callable[[*_T], _R]:
             return function(*arguments)
         rows = zip(*(_rows(one, stretch) for one in arguments), strict=True)
         alone = cast(Callable[..., object], function)
-        return cast(_R, _gathered(stretch, [alone(*row) for row in rows]))
+        return cast(_R, _gathered(stretch, [alone(*row) for row in rows], _shifted(_flat(arguments))))
 
     return lifted
 
@@ -299,16 +326,16 @@ def _rows(value: object, stretch: Stretch) -> list[object]:
         return cast(list[object], value.values.tolist())
     if type(value) is tuple:
         return list(zip(*(_rows(one, stretch) for one in value), strict=True))
-    return [value] * len(stretch.run)
+    return [value] * len(stretch.rows)
 
 
-def _gathered(stretch: Stretch, results: list[object]) -> object:
+def _gathered(stretch: Stretch, results: list[object], shifted: bool) -> object:
     import numpy as np
 
     first = results[0]
     if type(first) is tuple:
         columns = zip(*cast(list[tuple[object, ...]], results), strict=True)
-        return tuple(_gathered(stretch, list(column)) for column in columns)
+        return tuple(_gathered(stretch, list(column), shifted) for column in columns)
     if set(map(type, results)) != {float}:
         raise LooksInsideError(stretch)
-    return _number(stretch, np.array(results, dtype=np.float64))
+    return _number(stretch, np.array(results, dtype=np.float64), shifted=shifted)

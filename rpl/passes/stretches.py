@@ -4,8 +4,8 @@ A run goes in as ordinary moves with stretches between them. Its first two and l
 are the first move in which a number has a sign or a way of being written that none before it had, and the first two
 that share just these numbers. Why nothing wrong can come out in silence:
 
-- Whatever asks for a value that the moves of the run do not have alike raises LooksInsideError; then the run is
-  translated move by move.
+- Whatever asks for a value that the moves of a stretch and the ordinary ones of its run do not have alike raises
+  LooksInsideError; then the run is translated move by move.
 - Behind the passes each stretch has to be one move, which stands directly between the ordinary moves that it stood
   between; no column number may have gone anywhere else, and nothing may be reported about a stretch.
 - Each ordinary move but the first and the last of the run has to be, to the spelling and the place, what the stretches
@@ -17,7 +17,7 @@ What is left are passes that count the moves of a program; they are in the prope
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, cast
 
@@ -70,11 +70,12 @@ def settled(program: ir.Program, stretches: Collection[Stretch], reports: Iterab
     left = dict(places)
 
     def body(statements: ir.Body) -> ir.Body:
-        here = {_place(one.origin) for one in statements if isinstance(one, ir.Move)} & places.keys()
+        moves = {_place(one.origin): one for one in statements if isinstance(one, ir.Move)}
+        here = not places.keys().isdisjoint(moves)
         done = list(statements)
         for at, one in enumerate(statements):
             if here and isinstance(one, ir.Move) and (stretch := left.pop(_place(one.origin), None)) is not None:
-                done[at] = _rows(stretch, statements, at)
+                done[at] = _rows(stretch, statements, at, moves)
             elif isinstance(one, _BLOCKS):
                 done[at] = rewrite_parts(one, _kept, body)
         return statements if same(statements, done) else tuple(done)
@@ -123,10 +124,11 @@ def _entered(run: ir.Run, found: list[Stretch]) -> list[ir.Statement]:
     standing = sorted(ordinary)
     gaps = [(one + 1, other) for one, other in pairwise(standing) if other - one > SHORTEST]
     known = tuple(sorted({*range(len(run))} - {at for gap in gaps for at in range(*gap)}))
+    types = [_type({row[at] for row in spellings}) for at in range(len(columns.cells))]
     done, last = list[ir.Statement](), 0
     for first, end in gaps:
         found.append(Stretch(run, first, end, known, spellings))
-        done += [*alone(last, first), _column_move(found[-1])]
+        done += [*alone(last, first), _column_move(found[-1], types)]
         last = end
     return [*done, *alone(last, len(run))]
 
@@ -150,17 +152,23 @@ def _repeated(values: NDArray[np.float64]) -> NDArray[np.int64]:
     return bits
 
 
-def _column_move(stretch: Stretch) -> ir.Move:
+def _type(spellings: Collection[str]) -> type | None:
+    """Of a column with these: int, float, or None where all moves of the run are written alike."""
+    if len(spellings) == 1:
+        return None
+    return float if any("." in one for one in spellings) else int
+
+
+def _column_move(stretch: Stretch, types: Sequence[type | None]) -> ir.Move:
     """The move that stands for a stretch. What is written alike in all moves of the run stays as it is."""
     run = stretch.run
     cells: list[ir.Expression] = []
-    for at, old in enumerate(run.columns.cells):
-        if len({row[at] for row in stretch.spellings}) == 1:
+    for at, (old, kind) in enumerate(zip(run.columns.cells, types, strict=True)):
+        if kind is None:
             cells.append(old)
             continue
-        whole = all("." not in row[at] for row in stretch.spellings)
-        number = ColumnNumber(stretch, run.columns.values[:, at], int if whole else float)
-        spelling = f"{KEPT}{at}"
+        number, spelling = ColumnNumber(stretch, run.columns.values[stretch.rows, at], kind), f"{KEPT}{at}"
+        whole = kind is int
         cells.append(
             ir.IntLiteral(cast(int, number), spelling) if whole else ir.RealLiteral(cast(float, number), spelling)
         )
@@ -174,10 +182,9 @@ def _place(origin: Origin) -> _Place:
     return id(origin.source), origin.start, origin.end
 
 
-def _rows(stretch: Stretch, statements: ir.Body, at: int) -> Rows:
-    """The move at `at` of a body as rows, when it is what has to come of the stretch."""
+def _rows(stretch: Stretch, statements: ir.Body, at: int, moves: dict[_Place, ir.Move]) -> Rows:
+    """The move at `at` of a body as rows, when it is what has to come of the stretch. moves: those of the body."""
     columns, sample = stretch.run.columns, statements[at]
-    moves = {_place(one.origin): one for one in statements if isinstance(one, ir.Move)}
     beside = [columns.origin(stretch.first - 1), columns.origin(stretch.end)]
     around = [statements[at - 1] if at else None, statements[at + 1] if at + 1 < len(statements) else None]
     if not isinstance(sample, ir.Move) or any(

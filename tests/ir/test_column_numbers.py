@@ -20,7 +20,10 @@ def column(values: list[float]) -> float:
     text = "\n".join(["DEF p()", *[f"LIN {{X {at}.5,Y 1,Z 2,A 3,B 4,C 5}}" for at in range(40)], "END", ""])
     routine = read_program([source_from_text("p.src", text)]).reduced.modules[0].routines[0]
     run = next(one for one in routine.body if isinstance(one, ir.Run))
-    number: object = ColumnNumber(Stretch(run, 2, 5, (), []), np.resize(values, len(run)))
+    last = len(run) - 1
+    stretch = Stretch(run, 2, 5, (0, 1, 20, last), [])
+    assert stretch.rows.tolist() == [0, 1, 2, 3, 4, 19, 20, 21, last - 1, last]
+    number: object = ColumnNumber(stretch, np.resize(values, len(stretch.rows)))
     assert isinstance(number, float)  # so it says of itself
     return number
 
@@ -68,6 +71,8 @@ def test_what_all_rows_answer_alike_is_answered() -> None:
         lambda number: number**2,
         lambda number: number + column(VALUES),
         lambda number: np.array([number], dtype=np.float64),
+        lambda number: in_next_row(0.5 - in_next_row(number, 1), -1),
+        lambda number: in_next_row(by_row(math.sqrt)(abs(in_next_row(number, 1))), 1),
     ],
 )
 def test_what_they_answer_otherwise_is_refused(ask: Callable[[float], object]) -> None:
@@ -80,3 +85,6 @@ def test_a_row_and_the_rows_beside_it() -> None:
     assert in_row(in_next_row(column(VALUES), -1), 1) == 1.5
     assert in_row(in_next_row(column(VALUES), 1), 1) == 0.0
     assert in_row(in_next_row(column(VALUES), -1), 0) == 2.5
+    assert in_row(column(VALUES), 20) == 0.0
+    assert in_row(in_next_row(column(VALUES), -1), 20) == 2.5
+    assert in_row(in_next_row(column(VALUES), 1), 20) == 3.25
