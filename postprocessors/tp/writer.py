@@ -11,7 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.externalaxes import leading, used_externals
 from rpl.passes.scope import ProgramScope, Scope
-from rpl.source import NOWHERE
+from rpl.source import NOWHERE, Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
@@ -161,7 +161,7 @@ class _Writer:
         expressions.points = named
         printer.begin(routine.body)
         if expressions.texts_compared:
-            self.diagnostics.report(TEXT_CASE, routine.origin, name=routine.name)
+            self.diagnostics.report(TEXT_CASE, _place(routine), name=routine.name)
         self.lost_parts(routine)
         entry = routine.name.lower() in self.entries
         header = self.header(module, routine)
@@ -277,6 +277,12 @@ class _Writer:
                 self.diagnostics.report(LOST_DECLARATION, assign.origin, name="this value", reason=str(error))
                 done.append(Line("  PAUSE"))
         return done
+
+
+def _place(routine: ir.Routine) -> Origin:
+    """Of a routine that passes have brought along: where the source first needs it (its statements stand there)."""
+    places = (routine.origin, *(statement.origin for statement in routine.body))
+    return next((origin for origin in places if origin.source), NOWHERE)
 
 
 def _moves_before(listing: Listing, listings: list[Listing], word: str) -> bool:

@@ -184,7 +184,7 @@ class _Called:
                 raise
             return self.work_beside(start, region)
         call = ir.CallRoutine(start.task, start.arguments)
-        way = expansion(start.origin, self.guarded(call, events) if events else (call,))
+        way = expansion(start.origin, self.guarded(start, call, events) if events else (call,))
         return (*before, *way, *after) if not before else (*_first(before, start), *_rest(way), *after)
 
     def work_beside(self, start: ir.TaskControl, region: ir.Body) -> ir.Body:
@@ -196,7 +196,7 @@ class _Called:
         call = ir.CallRoutine(start.task, start.arguments)
         return expansion(start.origin, (ir.TaskControl("start", work), call, ir.TaskControl("join", work)))
 
-    def guarded(self, call: ir.CallRoutine, events: list[Event]) -> ir.Body:
+    def guarded(self, start: ir.TaskControl, call: ir.CallRoutine, events: list[Event]) -> ir.Body:
         """The call with interrupts for what ends it; where that is so already there is no motion."""
         already: list[tuple[ir.Expression, ir.Body]] = []
         armed: list[ir.Statement] = []
@@ -212,7 +212,11 @@ class _Called:
             self.data.append(ir.Variable(event.hit.id, ir.BoolType(), ir.BoolLiteral(False), scope="global"))
             already.append((event.condition, (*bare, hit)))
             declared = ir.DeclareInterrupt(
-                ir.IntLiteral(_PRIORITY), event.condition, ir.CallRoutine(action), identity=number
+                ir.IntLiteral(_PRIORITY),
+                event.condition,
+                ir.CallRoutine(action),
+                identity=number,
+                origin=tidy(start.origin),
             )
             armed += [declared, ir.ControlInterrupt("on", number)]
             off.append(ir.ControlInterrupt("off", number))
