@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from rpl.diagnostics import Diagnostics, Severity, folded
+from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import SourceError, UsageError
+from rpl.grouping import told
 from rpl.project import ReadProgram, read_program
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ def _program(given: ReadProgram | Paths, diagnostics: Diagnostics | None = None)
     found = read_program(_several(given), None, collector)
     errors = collector.of(Severity.ERROR)
     if errors:
-        texts = list(folded(errors))
+        texts = list(told(errors))
         more = [f"and {len(texts) - _MOST_ERRORS} more"] if len(texts) > _MOST_ERRORS else []
         raise SourceError("\n".join([*texts[:_MOST_ERRORS], *more]))
     if not found.files:

@@ -32,21 +32,24 @@ class Severity(IntEnum):
 @dataclass(frozen=True, slots=True)
 class Code:
     """One kind of report. `template` is filled with the report's arguments; `help` says what the user can do. `stops`:
-    the statement stays for the writer, which puts the target's stop there and need not report it once more."""
+    the statement stays for the writer, which puts the target's stop there and need not report it once more. `several`:
+    a sentence for reports that say different things, what is in brackets once for each (`{count} left out: [{name}]`);
+    without it the message has the values of the argument that differs in its place."""
 
     name: str
     severity: Severity
     template: str
     help: str = ""
     stops: bool = False
+    several: str = ""
 
 
 _CODES: dict[str, Code] = {}
 
 
-def code(name: str, severity: Severity, template: str, help: str = "", stops: bool = False) -> Code:
+def code(name: str, severity: Severity, template: str, help: str = "", stops: bool = False, several: str = "") -> Code:
     """Declare a code (kebab-case name). The same name with another meaning is refused."""
-    new = Code(name, severity, template, help, stops)
+    new = Code(name, severity, template, help, stops, several)
     if _CODES.setdefault(name, new) != new:
         raise InternalError(f"diagnostic code {name!r} is declared twice with different meanings")
     return new
@@ -153,45 +156,6 @@ class Diagnostics:
 
 def _place(item: Diagnostic) -> tuple[object, ...]:
     return item.origin.file, item.origin.line, item.origin.column
-
-
-# So many lines of one report are named, and so many different reports of one code about one file are printed.
-_MOST_LINES, _MOST_OF_A_KIND = 10, 20
-
-
-def folded(items: Iterable[Diagnostic]) -> Iterator[str]:
-    """The reports as lines of text, in order: those that say the same about one file are one line with their number and
-    places, and of errors and remarks of one code about one file only the first are shown, with the number of the rest.
-    Losses stand all, because each is a stop."""
-    groups: dict[tuple[object, ...], list[Diagnostic]] = {}
-    for item in items:
-        groups.setdefault((item.origin.file, item.severity, item.code.name, item.message), []).append(item)
-    kinds: dict[tuple[object, ...], list[list[Diagnostic]]] = {}
-    for (file, severity, name, _), group in groups.items():
-        kinds.setdefault((file, severity, name), []).append(group)
-    for key, group in groups.items():
-        alike = kinds[key[:3]]
-        known = len(alike) if key[1] == Severity.LOSS else _MOST_OF_A_KIND
-        if len(alike) <= known + 1 or group in alike[:known]:
-            yield group[0].as_text() + _again(group[1:])
-        elif group is alike[known]:
-            yield _rest([item for group in alike[known:] for item in group])
-
-
-def _again(more: list[Diagnostic]) -> str:
-    """The number of reports that say the same, and where."""
-    if not more:
-        return ""
-    places = list(dict.fromkeys(item.origin.line for item in more))
-    shown = ", ".join(str(place) for place in places[:_MOST_LINES]) + (", ..." if len(places) > _MOST_LINES else "")
-    where = f": line{'s' * (len(places) > 1)} {shown}" if more[0].origin.source else ""
-    return f" [{len(more)} more time{'s' * (len(more) > 1)}{where}]"
-
-
-def _rest(items: list[Diagnostic]) -> str:
-    first, lines = items[0], [item.origin.line for item in items]
-    place = f"{first.origin.file}:{min(lines)}: " if first.origin.source else ""
-    return f"{place}{first.severity.word} {first.code.name} {len(items)} more of this kind, to line {max(lines)}"
 
 
 def sarif(items: Iterable[Diagnostic]) -> str:

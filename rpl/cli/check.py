@@ -17,6 +17,7 @@ from rpl.cli.output import (
     print_diagnostics,
     print_json,
     say,
+    verbose_option,
     waiting,
 )
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity, sarif
@@ -27,6 +28,7 @@ from rpl.reading.ledger import FileReport
 @paths_argument
 @from_option
 @accept_option
+@verbose_option
 @json_option
 @click.option("--sarif", "as_sarif", is_flag=True, help="One SARIF 2.1.0 log on stdout, for code hosts and editors.")
 def command(paths: Sequence[str], dialect: str | None, accepted: Sequence[str], as_json: bool, as_sarif: bool) -> int:

@@ -21,6 +21,7 @@ from rpl.cli.output import (
     read_paths,
     robot_named,
     say,
+    verbose_option,
     waiting,
     write_file,
 )
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     "-o", "--output", type=click.Path(dir_okay=False, path_type=Path), metavar="F.toml", help="Write it there."
 )
 @force_option
+@verbose_option
 @json_option
 def command(
     log: str,

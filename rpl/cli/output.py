@@ -12,10 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from click.core import ParameterSource
 
 from rpl.cli.files import write_files
-from rpl.diagnostics import Diagnostic, Diagnostics, Severity, folded
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import UsageError
+from rpl.grouping import told
 from rpl.showing import printable, printable_lines
 from rpl.source import LARGEST_FILE, Source, source_from_bytes
 from rpl.tomlfile import FARTHEST
@@ -30,10 +32,20 @@ STANDARD_INPUT = "-"
 # JSON leaves these signs as they are: DEL, and the controls that terminals know besides those of ASCII.
 _STEERING = {sign: f"\\u{sign:04x}" for sign in range(0x7F, 0xA0)}
 
+_VERBOSE = "rpl.verbose"
+
+
+def _keep_verbose(context: click.Context, option: click.Parameter, value: bool) -> None:
+    context.meta[_VERBOSE] = value
+
+
 json_option = click.option("--json", "as_json", is_flag=True, help="One JSON document on stdout and nothing else.")
 from_option = click.option("--from", "dialect", metavar="D", help="Language of the source; else seen from its content.")
 robot_option = click.option("--robot", metavar="R", help="Arm the program was written for: a name or a .toml file.")
 accept_option = click.option("--accept", "accepted", multiple=True, metavar="CODE", help="Acknowledge a report's code.")
+verbose_option = click.option(
+    "--verbose", is_flag=True, expose_value=False, callback=_keep_verbose, help="Each report on a line of its own."
+)
 paths_argument = click.argument("paths", nargs=-1, required=True, metavar="PATH...")
 
 
@@ -69,9 +81,23 @@ def plain(value: object) -> object:
 
 
 def print_diagnostics(items: Iterable[Diagnostic], least: Severity = Severity.INFO) -> None:
-    """Reports on stderr, one per line, from this severity on; repeated ones with their count."""
-    for text in folded(item for item in items if item.severity >= least):
+    """Reports on stderr from this severity on: one line per kind, the worst first; with --verbose one line each."""
+    context = click.get_current_context(silent=True)
+    verbose = context is not None and bool(context.meta.get(_VERBOSE))
+    followed = _followed(context) if context is not None else frozenset()
+    for text in told((item for item in items if item.severity >= least), verbose, followed):
         click.echo(printable(" ".join(text.splitlines())), err=True)
+
+
+def _followed(context: click.Context) -> frozenset[str]:
+    """The options that the user gave: nobody is told to give them. An arm is the target's too."""
+    given = {
+        name
+        for option in context.command.params
+        if option.name is not None and context.get_parameter_source(option.name) == ParameterSource.COMMANDLINE
+        for name in option.opts
+    }
+    return frozenset(given | ({"--to-robot"} if "--robot" in given else set()))
 
 
 def collector(accepted: Sequence[str] = ()) -> Diagnostics:

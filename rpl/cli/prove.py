@@ -9,7 +9,7 @@ import click
 
 from rpl.cli.files import force_option, refuse_others
 from rpl.cli.limits import limit_options
-from rpl.cli.output import STANDARD_INPUT, json_option, print_json, robot_option, say
+from rpl.cli.output import STANDARD_INPUT, json_option, print_json, robot_option, say, verbose_option
 from rpl.cli.proofs import answer, certificate_option, keep, programs_of
 from rpl.cli.verdicts import accepting, exploring, status_of
 from rpl.errors import UsageError
@@ -47,6 +47,7 @@ HOLDS, FAILS = 0, 1
 )
 @limit_options
 @force_option
+@verbose_option
 @json_option
 def command(
     a: str | None,

@@ -24,6 +24,7 @@ from rpl.cli.output import (
     robot_named,
     robots_exist,
     say,
+    verbose_option,
     waiting,
     write_file,
 )
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
 @click.option("--despite-errors", is_flag=True, help="Run what was read in spite of errors in it.")
 @limit_options
 @force_option
+@verbose_option
 @json_option
 def command(
     paths: Sequence[str],

@@ -25,6 +25,7 @@ from rpl.cli.output import (
     robot_option,
     robots_exist,
     say,
+    verbose_option,
     waiting,
 )
 from rpl.cli.proofs import answer, certificate_option, keep
@@ -76,6 +77,7 @@ OK, NO, GUARDED = 0, 1, 3
 @accepting
 @certificate_option
 @force_option
+@verbose_option
 @json_option
 def command(
     paths: Sequence[str],

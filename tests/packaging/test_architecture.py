@@ -23,6 +23,7 @@ LEVELS = [
     ["registry"],
     ["ir"],
     ["motionmodel"],
+    ["grouping"],
     ["diagnostics", "source", "errors", "showing", "depth", "tomlfile", "words"],
 ]
 LEVEL = {room: number for number, rooms in enumerate(LEVELS) for room in rooms}

@@ -31,7 +31,10 @@ DYNAMIC = code(
     "the signal number is computed; numbers 1 to {last} are covered, another one stops the program",
 )
 NUMBERED = code(
-    "signal-number-chosen", Severity.WARNING, "signal {name} gets number {number}; wire or map it accordingly"
+    "signal-number-chosen",
+    Severity.WARNING,
+    "signal {name} gets number {number}; wire or map it accordingly",
+    several="{count} signals get numbers; wire or map them accordingly: [{name} {number}]",
 )
 # Numbers a computed index is expected to reach where the program shows no larger one.
 _REACH = 32

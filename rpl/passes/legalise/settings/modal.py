@@ -33,7 +33,12 @@ JOINT_SPEED = code(
 JOINT_BLEND = code(
     "approximated-blend", Severity.WARNING, "this blend has no exact counterpart; it is written as a zone of {size}"
 )
-DROPPED = code("dropped-setting", Severity.WARNING, "the target has no setting for {name}; it is left out")
+DROPPED = code(
+    "dropped-setting",
+    Severity.WARNING,
+    "the target has no setting for {name}; it is left out",
+    several="{count} settings have no counterpart and are left out: [{name}]",
+)
 
 UNIT_NAME = code(
     "mechanism-name",

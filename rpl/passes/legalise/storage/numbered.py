@@ -42,6 +42,7 @@ PERSISTENT = code(
     "persistent-set-at-start",
     Severity.INFO,
     "{name} keeps its value between runs in the source; here it is set at each start of the program",
+    several="{count} values are kept between runs in the source; here each start of the program sets them: [{name}]",
 )
 WHOLE = code("array-as-a-whole", Severity.LOSS, "{name}: the target has no arrays that are used as a whole")
 _SIMPLE = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType, ir.CharType)

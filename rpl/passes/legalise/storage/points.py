@@ -23,6 +23,7 @@ COPIED = code(
     Severity.WARNING,
     "{name} is one point in the source; here each of these programs has its own copy: {routines}",
     "teach the copies anew together, or keep the point where all programs read it",
+    several="{count} points of the source have a copy in each program that uses them: [{name} ({routines})]",
 )
 _POSE = {"x", "y", "z", "a", "b", "c"}
 _POSITIONS = (ir.TargetType, ir.JointsType)
