@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,7 +28,7 @@ from rpl.cli.output import (
     write_file,
 )
 from rpl.cli.reports import report_options, reports_of, show_reports
-from rpl.diagnostics import Diagnostics, Severity
+from rpl.diagnostics import Code, Diagnostic, Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.facts.pulsecounts import report_assumed, report_stations
 from rpl.runtime.trace import RunInterrupted
@@ -181,12 +180,13 @@ def _not_started(diagnostics: Diagnostics, as_json: bool) -> int:
     return 1
 
 
-def _warnings(result: RunResult) -> Iterator[str]:
+def _warnings(result: RunResult) -> Iterator[Diagnostic]:
     """What the controller would have logged on the way, each with its place."""
     for event in result.trace:
         if event.kind == "warning":
-            data, origin = event.data, event.origin
-            yield f"{origin.file}:{origin.line}: warning {data['code']} {data['text']} (task {event.task})"
+            kind = Code(str(event.data["code"]), Severity.WARNING, "{text}")
+            said = ("text", f"{event.data['text']} (task {event.task})")
+            yield Diagnostic(kind, event.origin, (said,), Severity.WARNING)
 
 
 def show(result: RunResult) -> None:
@@ -199,8 +199,7 @@ def show(result: RunResult) -> None:
         say(printable(f"{t:9.3f} s  {name} = {said}"))
     for message in messages:
         say(f"message    {printable(str(message))}")
-    for text, times in Counter(_warnings(result)).items():
-        say(printable(f"{text} [{times} times]" if times > 1 else text), err=True)
+    print_diagnostics(_warnings(result))
     say(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
     if isinstance(fault, dict):
         place = f"{fault['file']}:{fault['line']}: " if fault["file"] else ""

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from rpl.proof.certificate import Question
     from rpl.proof.tolerance import Accepted
     from rpl.proof.verdict import ProofResult
+    from rpl.report.readiness import Readiness
     from rpl.translation import Translation
     from rpl.writing.target import OutputFile
 
@@ -97,24 +98,24 @@ def command(
     """Write programs in another controller's language.
 
     What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
-    -o the program is printed. With --prove, --explore or --certificate the first line is the verdict: equal, alike
-    (exit status 3), different or undecided (1); --accept takes measures of the proof too.
+    -o the program is printed. The first line says whether the result is ready, workable or not, and how many moves and
+    statements need you. With --prove, --explore or --certificate it has the verdict: equal, alike (exit status 3),
+    different or undecided (1); --accept takes measures of the proof too.
     """
     from rpl.cell import read_cell
     from rpl.proof.cellnames import report_unknown_names
-    from rpl.writing.registers import read_registers
+    from rpl.report.readiness import readiness
 
     own, arms = _options(options), (about["robot"], about["to_robot"])
     target = _target(target, own)
     robots_exist(*arms)
     _certifiable(kept, paths, output)
-    house = _house(templates, target)
-    numbers = read_registers(registers) if registers is not None else None
+    house, numbers = _house(templates, target), _numbers(registers)
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
     read = read_paths(paths, dialect, diagnostics)
     if diagnostics.has_errors:
-        return _refuse(diagnostics, as_json)
+        return _refuse(read, diagnostics, as_json)
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
@@ -122,21 +123,20 @@ def command(
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
-        return _refuse(diagnostics, as_json)
-    proving, alone = proving or about["explore"] or kept is not None, output is None and not as_json
-    shown = _printed(translation, target, proving) if alone else translation.files
-    _alone(kept, output, translation.files, target)
-    written = _write(shown, output, _registers(translation), kept)
+        return _refuse(read, diagnostics, as_json)
+    proving = proving or about["explore"] or kept is not None
+    written = _put(translation, target, output, kept, proving, as_json)
     proof = None
     if proving:
         about |= {"a": paths[0], "b": str(output), "language_a": dialect, "language_b": target}
         asked = _question(accepted, diagnostics.items[before:], about)
         proof = _prove(read, translation, asked, output, kept)
-    print_diagnostics(diagnostics)
+    ready = readiness(read, diagnostics, proof.verdict if proof is not None else "")
     if as_json:
-        print_json(_document(translation, written, diagnostics, proof))
+        print_diagnostics(diagnostics)
+        print_json(_document(translation, written, diagnostics, proof, ready))
     else:
-        _print(translation, written, output, proof, len(diagnostics.of(Severity.WARNING)))
+        _print(translation, written, output, proof, ready, diagnostics)
     proved = status_of(proof) if proof is not None else OK
     return proved if proved != OK or not diagnostics.has_losses else GUARDED
 
@@ -146,6 +146,13 @@ def _house(templates: Path | None, target: str) -> Mapping[str, str] | None:
     from rpl.writing.house import house_files
 
     return None if templates is None else house_files(templates, target, registry.target_names())
+
+
+def _numbers(registers: Path | None) -> Mapping[tuple[str, int], str] | None:
+    """The numbers that an earlier translation gave."""
+    from rpl.writing.registers import read_registers
+
+    return read_registers(registers) if registers is not None else None
 
 
 def _translated(
@@ -244,13 +251,17 @@ def _options(written: Sequence[str]) -> dict[str, str]:
     return found
 
 
-def _refuse(diagnostics: Diagnostics, as_json: bool) -> int:
+def _refuse(read: ReadProgram, diagnostics: Diagnostics, as_json: bool) -> int:
     """Nothing is written from a program with errors."""
+    from rpl.report.readiness import readiness
+
+    ready = readiness(read, diagnostics, written=False)
+    say(f"rpl: {ready.as_text()}", err=True)
     print_diagnostics(diagnostics)
     if as_json:
         items = [item.as_json() for item in diagnostics]
-        print_json({"files": [], "diagnostics": items, "losses": [], "proof": None})
-    say("rpl: nothing was written: the errors come first", err=True)
+        empty = {"files": [], "diagnostics": items, "losses": [], "proof": None}
+        print_json(empty | {"readiness": ready.as_json()})
     return NO
 
 
@@ -258,6 +269,16 @@ def _raise_approximations(diagnostics: Diagnostics, first: int) -> None:
     for index in range(first, len(diagnostics.items)):
         if diagnostics.items[index].severity == Severity.WARNING:
             diagnostics.items[index] = replace(diagnostics.items[index], severity=Severity.ERROR)
+
+
+def _put(
+    translation: Translation, target: str, output: Path | None, kept: Path | None, proving: bool, as_json: bool
+) -> list[dict[str, object]]:
+    """Write the result into its folder; without one give the text of what is printed."""
+    alone = output is None and not as_json
+    shown = _printed(translation, target, proving) if alone else translation.files
+    _alone(kept, output, translation.files, target)
+    return _write(shown, output, _registers(translation), kept)
 
 
 def _write(
@@ -361,6 +382,7 @@ def _document(
     written: Sequence[dict[str, object]],
     diagnostics: Diagnostics,
     proof: ProofResult | None,
+    ready: Readiness,
 ) -> dict[str, object]:
     return {
         "files": list(written),
@@ -368,6 +390,7 @@ def _document(
         "losses": [item.as_json() for item in translation.losses],
         "renamed": dict(translation.renamed),
         "proof": proof.as_json() if proof is not None else None,
+        "readiness": ready.as_json(),
     }
 
 
@@ -376,9 +399,12 @@ def _print(
     written: Sequence[dict[str, object]],
     output: Path | None,
     proof: ProofResult | None,
-    warnings: int,
+    ready: Readiness,
+    diagnostics: Diagnostics,
 ) -> None:
-    """The verdict first, if there is one; then what was written and how much of it is not as it was."""
+    """What needs somebody comes first, then the places, the worst first, the proof and what was written."""
+    say(ready.as_text(), err=output is None)
+    print_diagnostics(diagnostics)
     if proof is not None:
         say(proof.as_text(), err=output is None)
     if output is None:
@@ -389,7 +415,6 @@ def _print(
             say(f"wrote {row['written']}")
         for old, new in translation.renamed.items():
             say(f"renamed {old} to {new}")
-        say(_summary(len(translation.losses), warnings))
 
 
 # Warnings that concern a name or a file and no meaning.
@@ -400,10 +425,3 @@ def _approximations(written: Sequence[Diagnostic]) -> tuple[tuple[str, int], ...
     """What was written in another way on purpose and nobody accepts: codes in alphabetical order, and how often."""
     warned = (item.code.name for item in written if item.severity == Severity.WARNING)
     return tuple(sorted(Counter(name for name in warned if name not in _NO_APPROXIMATIONS).items()))
-
-
-def _summary(losses: int, warnings: int) -> str:
-    """How much of a translation is not as it was in the source."""
-    said = [f"{losses} losses, listed above: what could not be said stops the program there"] if losses else []
-    said += [f"{warnings} approximations or remarks, listed above"] if warnings else []
-    return "; ".join(said) if said else "every statement was written"
