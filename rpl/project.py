@@ -169,6 +169,15 @@ def _read(groups: dict[str, list[Source]], diagnostics: Diagnostics) -> ReadProg
     return ReadProgram(program, raw, every, tuple(files), tuple(groups))
 
 
+def check_loading(read: ReadProgram, diagnostics: Diagnostics) -> None:
+    """Warn of what the controllers of the program's languages refuse to load, whatever our readers make of it."""
+    spoken = {report.path: report.dialect for report in read.files}
+    for name in read.dialects:
+        rules = registry.dialect(name).loading
+        if rules is not None:
+            rules().check([source for source in read.sources if spoken.get(source.path) == name], diagnostics)
+
+
 def _refused(source: Source, diagnostics: Diagnostics) -> bool:
     """Has it zero bytes, or a number that nobody can read? For that only lines longer than it are looked at."""
     if "\x00" in source.text:

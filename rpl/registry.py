@@ -21,6 +21,7 @@ from rpl.tomlfile import read_toml
 from rpl.words import Words
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module, Program, Signal
     from rpl.ir.analog import AnalogPorts
@@ -77,7 +78,8 @@ class Dialect:
     the language spells a numbered signal. aliases: other words that people ask for it by, such as its maker's name;
     capitals do not count.
     analog_said(program): the ranges of analogue signals that a program of the language itself says. signal_of(text):
-    what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None.
+    what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None. loading(): what its
+    controller refuses to load, or None where nobody knows.
     """
 
     name: str
@@ -94,6 +96,7 @@ class Dialect:
     aliases: tuple[str, ...] = ()
     analog_said: Callable[[Program], tuple[AnalogPorts, ...]] = _nothing_said
     signal_of: Callable[[str], Signal | None] = _no_signal
+    loading: Callable[[], Loader] | None = None
 
 
 @dataclass(frozen=True, slots=True)

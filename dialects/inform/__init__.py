@@ -14,6 +14,7 @@ from rpl.source import Source
 from .signals import signal_name, signal_of
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir.rules import Rules
 
@@ -70,6 +71,12 @@ def _notation() -> Notation:
     return NOTATION
 
 
+def _loading() -> Loader:
+    from .loading import LOADER
+
+    return LOADER
+
+
 DIALECT = Dialect(
     name="inform",
     title="Yaskawa INFORM",
@@ -84,4 +91,5 @@ DIALECT = Dialect(
     signal_of=signal_of,
     companions=_companions,
     aliases=("yaskawa", "motoman"),
+    loading=_loading,
 )

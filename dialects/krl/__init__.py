@@ -12,6 +12,7 @@ from rpl.registry import Dialect, ReadResult, words
 from rpl.source import Source
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module
     from rpl.ir.rules import Rules
@@ -89,6 +90,12 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{(known.pairs('signals') | known.pairs('groups'))[kind]}[{number}]"
 
 
+def _loading() -> Loader:
+    from .loading import LOADER
+
+    return LOADER
+
+
 DIALECT = Dialect(
     name="krl",
     title="KUKA KRL",
@@ -102,4 +109,5 @@ DIALECT = Dialect(
     companions=_companions,
     signal_name=_signal_name,
     aliases=("kuka", "krc"),
+    loading=_loading,
 )

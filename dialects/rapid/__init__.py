@@ -10,6 +10,7 @@ from rpl.registry import Dialect, ReadResult
 from rpl.source import Source
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module, Program
     from rpl.ir.analog import AnalogPorts
@@ -52,6 +53,12 @@ def _notation() -> Notation:
     return NOTATION
 
 
+def _loading() -> Loader:
+    from .loading import LOADER
+
+    return LOADER
+
+
 DIALECT = Dialect(
     "rapid",
     "ABB RAPID",
@@ -64,4 +71,5 @@ DIALECT = Dialect(
     notation_fields=("cf1", "cf4", "cf6", "cfx"),
     aliases=("abb",),
     analog_said=_analog_said,
+    loading=_loading,
 )

@@ -12,6 +12,7 @@ from rpl.registry import Dialect, ReadResult
 from rpl.source import Source
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module
     from rpl.ir.rules import Rules
@@ -84,6 +85,12 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{_SIGNALS[kind]}[{number}]"
 
 
+def _loading() -> Loader:
+    from .loading import LOADER
+
+    return LOADER
+
+
 DIALECT = Dialect(
     name="tp",
     title="FANUC TP",
@@ -97,4 +104,5 @@ DIALECT = Dialect(
     notation_fields=("flip", "down", "back", "t1", "t4", "t6"),
     signal_name=_signal_name,
     aliases=("fanuc",),
+    loading=_loading,
 )

@@ -12,6 +12,7 @@ from rpl.registry import Dialect, ReadResult
 from rpl.source import Source
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module, Program
     from rpl.ir.analog import AnalogPorts
@@ -102,6 +103,12 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{kind}[{number - 1}]"
 
 
+def _loading() -> Loader:
+    from .loading import LOADER
+
+    return LOADER
+
+
 DIALECT = Dialect(
     name="urscript",
     title="Universal Robots URScript",
@@ -115,4 +122,5 @@ DIALECT = Dialect(
     signal_name=_signal_name,
     aliases=("ur", "universal robots", "universal-robots"),
     analog_said=_analog_said,
+    loading=_loading,
 )

@@ -12,6 +12,7 @@ from rpl.registry import Dialect, ReadResult
 from rpl.source import Source
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module
     from rpl.ir.rules import Rules
@@ -61,6 +62,12 @@ def _notation() -> Notation:
     return NOTATION
 
 
+def _loading() -> Loader:
+    from .loading import LOADER
+
+    return LOADER
+
+
 DIALECT = Dialect(
     name="val3",
     title="Staubli VAL3",
@@ -73,4 +80,5 @@ DIALECT = Dialect(
     notation_fields=("shoulder", "elbow", "wrist"),
     companions=_companions,
     aliases=("staubli", "stäubli", "cs8", "cs9"),
+    loading=_loading,
 )

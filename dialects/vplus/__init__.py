@@ -12,6 +12,7 @@ from rpl.registry import Dialect, ReadResult
 from rpl.source import Source
 
 if TYPE_CHECKING:
+    from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir.rules import Rules
 
@@ -77,6 +78,12 @@ def _signal_name(kind: str, number: int) -> str:
     return str(number + offset) if number <= tables.MOST_SIGNALS or robot else f"{kind} {number}"
 
 
+def _loading() -> Loader:
+    from .loading import LOADER
+
+    return LOADER
+
+
 DIALECT = Dialect(
     name="vplus",
     title="Adept V+",
@@ -89,4 +96,5 @@ DIALECT = Dialect(
     notation_fields=("shoulder", "elbow", "wrist"),
     signal_name=_signal_name,
     aliases=("v+", "adept"),
+    loading=_loading,
 )

@@ -1,4 +1,4 @@
-"""`rpl check`: read programs and report, without kinematics."""
+"""`rpl check`: read programs and report, also what their controllers refuse to load, without kinematics."""
 
 from __future__ import annotations
 
@@ -32,15 +32,16 @@ from rpl.reading.ledger import FileReport
 @json_option
 @click.option("--sarif", "as_sarif", is_flag=True, help="One SARIF 2.1.0 log on stdout, for code hosts and editors.")
 def command(paths: Sequence[str], dialect: str | None, accepted: Sequence[str], as_json: bool, as_sarif: bool) -> int:
-    """Read programs together and report what cannot be read or makes no sense.
+    """Read programs together and report what cannot be read, makes no sense or does not load.
 
     A PATH is a file, a folder, an archive, or - for standard input.
     """
-    from rpl.project import read_program
+    from rpl.project import check_loading, read_program
 
     diagnostics, language = collector(accepted), dialect_exists(dialect)
     with waiting("reading"):
         read = read_program(opened(paths), language, diagnostics)
+        check_loading(read, diagnostics)
     print_diagnostics(diagnostics)
     if as_sarif:
         click.echo(sarif(diagnostics))

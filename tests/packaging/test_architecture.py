@@ -22,7 +22,7 @@ LEVELS = [
     ["controllers"],
     ["registry"],
     ["ir"],
-    ["motionmodel"],
+    ["motionmodel", "checks"],
     ["grouping"],
     ["diagnostics", "source", "errors", "showing", "depth", "tomlfile", "words"],
 ]

@@ -1,0 +1,1 @@
+"""Warnings about programs: they look at what was read and change nothing."""
