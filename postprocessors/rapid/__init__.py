@@ -9,6 +9,7 @@ from rpl.registry import Target
 if TYPE_CHECKING:
     from rpl.ir import Program
     from rpl.passes.capabilities import Capabilities
+    from rpl.passes.legalise.stages import Placed
     from rpl.writing.target import OutputFile, WriteContext
 
 
@@ -24,11 +25,18 @@ def _write(program: Program, context: WriteContext) -> list[OutputFile]:
     return write(program, context)
 
 
+def _passes() -> tuple[Placed, ...]:
+    from .passes import PASSES
+
+    return PASSES
+
+
 TARGET = Target(
     "rapid",
     "ABB RAPID",
     _capabilities,
     _write,
+    passes=_passes,
     options={"header": "yes: begin each module with the load header of program files"},
     encodings=("latin-1", "utf-8"),
     rows=True,

@@ -63,7 +63,7 @@ def test_results_are_short(demo: Path) -> None:
     program = rpl.read(SAMPLE)
     assert repr(program) == "<ReadProgram: krl, 2 files, 87 statements>"
     written = rpl.translate(program, "rapid")
-    assert repr(written) == "<Translation: 2 files (PALLETISER.mod, rpl_motion.mod), 0 losses>"
+    assert repr(written) == "<Translation: 1 file (PALLETISER.mod), 0 losses>"
     result = rpl.run(program, ROBOT)
     assert repr(result).startswith("<RunResult: finished after ") and "84 moves, 21 outputs" in repr(result)
     demo.write_text("DEF demo()\nINT i\ni=1/0\nEND\n")

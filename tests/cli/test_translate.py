@@ -178,14 +178,10 @@ def test_a_script_is_proved_from_its_own_beginning(tmp_path: Path, capsys: pytes
 
 def test_one_program_is_printed_and_what_belongs_to_it_named(capsys: pytest.CaptureFixture[str]) -> None:
     sample = str(Path(__file__).parents[2] / "samples/krl/palletiser/palletiser.src")
-    for target, first, others in (
-        ("krl", "&ACCESS", "PALLETISER.dat"),
-        ("rapid", "MODULE PALLETISER", "rpl_motion.mod"),
-    ):
-        assert run(["translate", sample, "--to", target]) == 0
-        out, err = capsys.readouterr()
-        assert out.startswith(first) and "MODULE rpl_motion" not in out and "DEFDAT" not in out
-        assert f"to what is printed belong {others}: -o DIR" in err
+    assert run(["translate", sample, "--to", "krl"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("&ACCESS") and "DEFDAT" not in out
+    assert "to what is printed belong PALLETISER.dat: -o DIR" in err
 
 
 def test_several_programs_need_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

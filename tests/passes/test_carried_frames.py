@@ -66,7 +66,7 @@ def translated(text: str, language: str, target: str, arm: str) -> tuple[ProofRe
 @pytest.mark.parametrize(("target", "line"), [
     ("krl", "$BASE=EK(EX_AX_DATA[1].ROOT,#EASYS,{X 0.0,Y 0.0,Z 50.0,A 0.0,B 0.0,C 0.0})"),
     ("rpl", '$base_unit = "EASYS"'),
-    ("rapid", 'rpl_frame.ufmec:="EASYS";'),
+    ("rapid", 'wobjCurrent.ufmec:="EASYS";'),
 ])  # fmt: skip
 def test_external_kinematics_of_krl_move_the_base(target: str, line: str) -> None:
     result, told, text = translated(KRL, "krl", target, KUKA)

@@ -10,8 +10,8 @@ from rpl.source import source_from_text
 from rpl.translation import translate_program
 
 CASES = {
-    "six axes have one number in RAPID": ("BAS(#VEL_PTP,50)", "rapid", "[2500,400,5000,1000]", 1),
-    "no tool": ("BAS(#TOOL,0)", "rapid", "rpl_tool.tframe:=[[0,0,0],[1,0,0,0]];", 1),
+    "six axes have one number in RAPID": ("BAS(#VEL_PTP,50)", "rapid", ",v2500,fine", 1),
+    "no tool": ("BAS(#TOOL,0)", "rapid", "tframe", 0),
     "a number that is kept is no place for another": ("BAS(#TOOL,0)", "rapid", "ACT_TOOL", 0),
     "nothing to ask about a constant": ("BAS(#BASE,0)", "rapid", "IF 0>", 0),
     "what the source says twice": ("x=1\nx=1", "rapid", "x:=1;", 2),

@@ -103,4 +103,4 @@ def test_a_corner_that_every_way_sets_the_same_is_a_number_and_no_data(size: str
     read = read_sources([source_from_text("m.src", "\n".join(lines))], "krl", Diagnostics())
     done = translate_program(read, "rapid", "kuka_kr6r900sixx", None, Diagnostics())
     text = "".join(one.data.decode() for one in done.files)
-    assert ("z40" in text, "rpl_zone" in text) == (named, not named), text
+    assert ("z40" in text, "zPath" in text) == (named, not named), text

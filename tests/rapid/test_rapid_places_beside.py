@@ -51,9 +51,9 @@ def test_a_thread_that_watches_the_tool() -> None:
     written = translate_program(read, "rapid", "ur5e", None, diagnostics)
     assert not diagnostics.of(Severity.LOSS)
     (task,) = [file.data.decode() for file in written.files if file.path.startswith("TASK2/") and b"CRobT" in file.data]
-    assert 'CRobT(\\TaskName:="T_ROB1"\\Tool:=rpl_tool\\WObj:=wobj0)' in task
+    assert 'CRobT(\\TaskName:="T_ROB1"\\Tool:=tCurrent\\WObj:=wobj0)' in task
     assert 'CJointT(\\TaskName:="T_ROB1")' in task
-    assert "PERS tooldata rpl_tool:=" in task
+    assert "PERS tooldata tCurrent:=" in task
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "rapid", diagnostics)
     assert not diagnostics.has_errors
     result = run_program(back.program, "ur5e", None, "main")

@@ -19,9 +19,9 @@ LOOP = HEAD + "  while not get_standard_digital_in(0):\n    speedl({speed}, 0.5,
     ("speed", "target", "wanted"),
     [
         ("[0, 0, -0.03, 0, 0, 0]", "krl", "$VEL.CP=0.03\r\n"),
-        ("[0, 0, -0.03, 0, 0, 0]", "rapid", "rpl_speed\\V:=30,"),
+        ("[0, 0, -0.03, 0, 0, 0]", "rapid", ",v30,"),
         ("[0, 0, -s, 0, 0, 0]", "krl", "$VEL.CP=ABS(-s)\r\n"),
-        ("[0, 0, -s, 0, 0, 0]", "rapid", "rpl_speed\\V:=Abs(-s)*1000,"),
+        ("[0, 0, -s, 0, 0, 0]", "rapid", "vPath\\V:=Abs(-s)*1000,"),
     ],
 )
 def test_the_speed_is_in_the_unit_of_the_target(speed: str, target: str, wanted: str) -> None:

@@ -21,7 +21,7 @@ RECORDS = replace(
 HEAD = """
 PERSISTENT grip: POSE = pose {x: 0.0, y: 0.0, z: 120.0, a: 0.0, b: 0.0, c: 0.0}
 PERSISTENT table: POSE = pose {x: 50.0, y: -20.0, z: 0.0, a: 10.0, b: 0.0, c: 0.0}
-PERSISTENT no_tool: TOOL
+PERSISTENT no_tool: TOOL = tool {held: TRUE}
 PERSISTENT no_frame: WORKOBJECT
 CONST p: TARGET.rpl = target.rpl {x: 400.0, y: 100.0, z: 300.0, a: 0.0, b: 0.0, c: 180.0}
 VAR here: TARGET.rpl = p
@@ -108,8 +108,8 @@ def test_where_the_robot_is_is_seen_with_the_tool_that_is_set_now() -> None:
     before = program(lines)
     given = context(before, RECORDS)
     after = same(before, [modal_to_explicit, tool_data], given, robot=ROBOT)
-    asked = [s for s in after.modules[0].routines[0].body if isinstance(s, ir.Assign)][1]
-    assert asked.value == ir.Builtin("current_target", (ir.Name("rpl_tool"), ir.Name("no_frame")))
+    asked = next(s for s in after.modules[0].routines[0].body if isinstance(s, ir.Assign))
+    assert asked.value == ir.Builtin("current_target", (ir.Name("grip"), ir.Name("no_frame")))
 
 
 def test_other_targets_keep_their_poses() -> None:

@@ -6,7 +6,7 @@ Routines are entered with what all their calls have in common, and leave with wh
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
@@ -94,12 +94,15 @@ class Flow:
     reached: set[int] = field(default_factory=set)
 
     @classmethod
-    def of(cls, program: ir.Program, defaults: dict[str, float | bool | str]) -> Flow:
-        """Follow the program; `defaults` are the system variables of its language at the start."""
+    def of(
+        cls, program: ir.Program, defaults: dict[str, float | bool | str], begins: Mapping[str, ir.Expression] = {}
+    ) -> Flow:
+        """Follow the program; `defaults` are the system variables of its language at the start, `begins` what else the
+        target begins with."""
         program = known_calls(program)
         setters = _setters(program)
         unsure = _set_at_any_time(program, setters)
-        start: State = {name: _default(name, defaults) for name in _FOLLOWED}
+        start: State = {name: _default(name, defaults) for name in _FOLLOWED} | dict(begins)
         flow = cls(usage_of(program), start)
         _Settings(program, flow, setters, unsure).solve(started(program), beside(program))
         return flow

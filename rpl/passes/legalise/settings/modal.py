@@ -15,13 +15,14 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.modalflow import Flow, State
 from rpl.passes.legalise.places.circles import has_arcs
-from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
+from rpl.passes.legalise.rewriting.headdata import with_data
 from rpl.passes.legalise.settings.carriedframes import ROOT, UNIT
-from rpl.passes.legalise.settings.tooldata import HOME, PLACES, tool_of, work_object_of
+from rpl.passes.legalise.settings.tooldata import PLACES, tool_of, work_object_of
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
+from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT, ZONE_PROPORTIONS
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
 
@@ -32,6 +33,13 @@ JOINT_SPEED = code(
 )
 JOINT_BLEND = code(
     "approximated-blend", Severity.WARNING, "this blend has no exact counterpart; it is written as a zone of {size}"
+)
+TURNING = code(
+    "usual-turning-speed",
+    Severity.INFO,
+    "the tool turns as fast as the target's usual speeds let it ({limit:g} deg/s), whatever the source allows beside "
+    "the path",
+    "where a move turns much, give it a slower speed",
 )
 DROPPED = code(
     "dropped-setting",
@@ -52,6 +60,10 @@ UNIT_ROOT = code(
 )
 # The path speed of a move that only its turning speed limits: the largest programmable one.
 _FREE_PATH_MM_S = 5000.0
+# How fast the tool turns in speeds that say nothing else about it: what all predefined ones have.
+_USUAL_TURN_DEG_S = 500.0
+# Below it, deg/s, somebody wants slow turns; controllers and their start routines set more.
+_CHOSEN_TURN_DEG_S = 100.0
 _STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
 # Values with which a dropped setting says what the target does anyway.
 USUAL = {
@@ -85,16 +97,17 @@ class _State:
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
 
-_KINDS: dict[str, tuple[ir.Type, str]] = {
-    "tool": (ir.ToolType(), "persistent"),
-    "frame": (ir.WorkObjectType(), "persistent"),
-    "speed": (ir.SpeedType(), "variable"),
-    "joint_speed": (ir.SpeedType(), "variable"),
-    "zone": (ir.ZoneType(), "variable"),
-    "joint_zone": (ir.ZoneType(), "variable"),
-    "own_zone": (ir.ZoneType(), "variable"),
-    "with_tool": (ir.ToolType(), "persistent"),
-    "with_frame": (ir.WorkObjectType(), "persistent"),
+# What is generated where the run decides: type, storage, name.
+_KINDS: dict[str, tuple[ir.Type, str, str]] = {
+    "tool": (ir.ToolType(), "persistent", "tCurrent"),
+    "frame": (ir.WorkObjectType(), "persistent", "wobjCurrent"),
+    "speed": (ir.SpeedType(), "variable", "vPath"),
+    "joint_speed": (ir.SpeedType(), "variable", "vJoint"),
+    "zone": (ir.ZoneType(), "variable", "zPath"),
+    "joint_zone": (ir.ZoneType(), "variable", "zJoint"),
+    "own_zone": (ir.ZoneType(), "variable", "zMove"),
+    "with_tool": (ir.ToolType(), "persistent", "tMove"),
+    "with_frame": (ir.WorkObjectType(), "persistent", "wobjMove"),
 }
 
 
@@ -102,15 +115,13 @@ _KINDS: dict[str, tuple[ir.Type, str]] = {
 def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without modal motion and sources that have it."""
     worker = _Explicit(program, context)
-    program = worker.without_dead_settings(edit_all(program, worker.body))
+    program = worker.without_dead_settings(edit_each(program, worker.routine))
     declarations = worker.declarations()
     if declarations:
         task = next((module.task for module in program.modules), "")
-        name = context.fresh(HOME)
-        home = ir.Module(name, program.modules[0].dialect, declarations, task=task)
         shared = tuple(one for one in declarations if isinstance(one, ir.Variable) and one.storage == "persistent")
         modules = tuple(_sharing(module, task, shared) for module in program.modules)
-        program = replace(program, modules=(*modules, home))
+        program = with_data(replace(program, modules=modules), declarations)
     return program
 
 
@@ -134,13 +145,17 @@ class _Explicit:
         self.made = _settings_made(program)
         self.never = {"tool", "base"} - self.made
         self.defaults = rules_of(context.source).system_defaults
-        self.flow = Flow.of(program, dict(self.defaults))
+        self.flow = Flow.of(program, dict(self.defaults), {"tool": ir.System("null_frame")})
+        self.here: State = {}
+        self.task = program.modules[0].task  # that moves; what it has set is not known in one beside it
+        self.follows = True
+        self.poses = _global_poses(program)
 
     # ---- generated data
 
     def name(self, kind: str) -> ir.Expression:
         if kind not in self.state.names:
-            self.state.names[kind] = self.context.fresh(f"rpl_{kind}")
+            self.state.names[kind] = self.context.fresh(_KINDS[kind][2])
         return ir.Name(self.state.names[kind])
 
     def without_dead_settings(self, program: ir.Program) -> ir.Program:
@@ -173,9 +188,9 @@ class _Explicit:
             "with_tool": tool_of(),
             "frame": work_object_of(),
             "with_frame": work_object_of(),
-            "speed": _speed(_real(self.default("path_speed", 250.0)), _real(self.default("swivel_speed", 200.0))),
+            "speed": _speed(_real(self.default("path_speed", 250.0)), _real(_USUAL_TURN_DEG_S)),
             "joint_speed": _speed(
-                _real(self.default("joint_speed", 100.0) * MM_S_PER_PERCENT), _real(self.default("swivel_speed", 200.0))
+                _real(self.default("joint_speed", 100.0) * MM_S_PER_PERCENT), _real(_USUAL_TURN_DEG_S)
             ),
             "zone": _zone(_real(self.default("blend_distance", 0.0))),
             "joint_zone": _zone(_real(self.default("blend_joint", 50.0) * ZONE_MM_PER_PERCENT)),
@@ -193,10 +208,20 @@ class _Explicit:
 
     # ---- statements
 
+    def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        self.follows = module.task == self.task
+        return edit_bodies(routine, self.body)
+
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
 
     def statement(self, statement: ir.Statement) -> ir.Body:
+        outer, self.here = self.here, self.flow.at(statement) if self.follows else {}
+        done = self.rewritten(statement)
+        self.here = outer
+        return done
+
+    def rewritten(self, statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.Assign(target=ir.System(name=name)) if name in _MODAL or name in _OWN_SETTINGS:
                 return tuple(self.setting(statement))
@@ -206,10 +231,7 @@ class _Explicit:
 
     def known(self, move: ir.Move) -> Environment:
         """Settings that the program has set to plain numbers at a move."""
-        state, start = self.flow.at(move), self.flow.start
-        found = {
-            name: _number(value) for name, value in state.items() if value is not None and value is not start[name]
-        }
+        found = {name: _number(value) for name, value in self.flow.at(move).items() if value is not None}
         return {name: value for name, value in found.items() if value is not None}
 
     # ---- settings
@@ -239,7 +261,7 @@ class _Explicit:
             made.append(ir.Assign(replace(place, name="fixed"), ir.BoolLiteral(True), origin=_later(statement)))
         if component == "path" and kind.endswith("zone"):
             later = replace(statement.origin, comments=())
-            for other, factor in _ZONE_PROPORTIONS[1:]:
+            for other, factor in ZONE_PROPORTIONS[1:]:
                 scaled = _scaled(value, _FACTOR.get(name, 1.0) * factor)
                 made.append(ir.Assign(ir.Field(self.name(kind), other), scaled, origin=later))
         return list(made)
@@ -271,8 +293,21 @@ class _Explicit:
         return rewrite_parts(expression, self.expression)
 
     def modal_data(self, name: str) -> ir.Expression | None:
-        """The generated tool (`tool`) or work object (`base`); None when nothing ever sets one."""
-        return None if name in self.never else self.name(_MODAL[name][0])
+        """The tool (`tool`) or frame (`base`) in force: the datum that is known to be set here, else the generated one;
+        None when nothing ever sets one."""
+        if name in self.never:
+            return None
+        value = None if name == "base" and UNIT in self.made else self.here.get(name)
+        return value if value is not None and self.is_datum(value) else self.name(_MODAL[name][0])
+
+    def is_datum(self, value: ir.Expression) -> bool:
+        """Can a move name it: no offset at all, numbers, or a pose that the whole program knows by a name?"""
+        match value:
+            case ir.System(name="null_frame"):
+                return True
+            case ir.Name(id=name):
+                return name.lower() in self.poses
+        return isinstance(value, ir.Aggregate) and not any(isinstance(one, ir.Name) for one in walk(value))
 
     def seen(self, expression: ir.Builtin) -> ir.Builtin:
         """Where the robot is, with the tool and frame that are set, and not with those of the last move."""
@@ -327,11 +362,11 @@ class _Explicit:
         if speed is not None:
             given = {"joint_speed": speed.joint, "path_speed": speed.path}
             own = {**own, **{name: value for name, value in given.items() if value is not None}}
-            turning = _number(speed.rotation) if speed.rotation is not None and speed.path is None else None
-            if turning is not None and move.kind != "joint":
+            turning = None if speed.rotation is None or move.kind == "joint" else _number(speed.rotation)
+            if turning is not None and speed.path is None:
                 return ir.Speed(profile=_speed(_real(_FREE_PATH_MM_S), turning))
-            if speed.rotation is not None:
-                known = {**known, "swivel_speed": speed.rotation}
+            if turning is not None:
+                self.report_once(TURNING, move, "", limit=_USUAL_TURN_DEG_S)
         return self.speed(move, known, own)
 
     def speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
@@ -342,15 +377,36 @@ class _Explicit:
             if shown not in (100, 100.0):
                 self.report_once(JOINT_SPEED, move, str(shown), percent=shown, factor=MM_S_PER_PERCENT)
             if percent is not None:
-                path = _scaled(percent, MM_S_PER_PERCENT)
-                rotation = values.get("swivel_speed") or _real(self.default("swivel_speed", 200.0))
-                return ir.Speed(profile=_speed(path, rotation if _number(rotation) else _real(200.0)))
+                return ir.Speed(profile=_speed(_scaled(percent, MM_S_PER_PERCENT), _real(_USUAL_TURN_DEG_S)))
             return ir.Speed(profile=self.name("joint_speed"))
         path_speed = values.get("path_speed")
-        rotation_speed = known.get("swivel_speed")
-        if path_speed is not None and rotation_speed is not None and _number(path_speed) is not None:
-            return ir.Speed(profile=_speed(path_speed, rotation_speed))
+        if path_speed is not None and _number(path_speed) is not None:
+            turning = self.turning(move, known)
+            if turning is not None:
+                return ir.Speed(profile=_speed(path_speed, turning))
         return ir.Speed(profile=self.name("speed"), path=own.get("path_speed"))
+
+    def turning(self, move: ir.Move, known: Environment) -> ir.Expression | None:
+        """How fast the tool turns at most, deg/s. The usual one of the target's speeds, unless the program has set a
+        slow one for its own sake, or turns in place. None: it depends on the run."""
+        if "swivel_speed" not in self.made:
+            return _real(_USUAL_TURN_DEG_S)
+        value = known.get("swivel_speed")
+        if not isinstance(value, ir.RealLiteral | ir.IntLiteral):
+            return value
+        chosen = value.value < _CHOSEN_TURN_DEG_S and not self.same_share(value.value, known)
+        if chosen or _turns_in_place(move):
+            return value
+        self.report_once(TURNING, move, "", limit=_USUAL_TURN_DEG_S)
+        return _real(_USUAL_TURN_DEG_S)
+
+    def same_share(self, turning: float, known: Environment) -> bool:
+        """Does the turning speed come with the joint speed, as the same share of the full one?"""
+        joint = known.get("joint_speed")
+        full = self.default("swivel_speed", 0.0)
+        if not isinstance(joint, ir.RealLiteral | ir.IntLiteral):
+            return False
+        return abs(turning * 100.0 - joint.value * full) < 1e-6 * full
 
     def blend(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Blend:
         values = {**known, **own}
@@ -383,6 +439,24 @@ class _Explicit:
 def _later(statement: ir.Assign) -> Origin:
     """The place of a second statement made of one: its comments stay at the first."""
     return replace(statement.origin, comments=())
+
+
+def _turns_in_place(move: ir.Move) -> bool:
+    """Is the goal another posture at a named place: a shift by no distance?"""
+    match move.target:
+        case ir.Builtin(function="offset" | "tool_offset", arguments=(_, x, y, z, *_)):
+            return all(isinstance(one, ir.RealLiteral | ir.IntLiteral) and one.value == 0 for one in (x, y, z))
+    return False
+
+
+def _global_poses(program: ir.Program) -> frozenset[str]:
+    """Poses that modules declare, by folded name."""
+    return frozenset(
+        one.name.lower()
+        for module in program.modules
+        for one in module.declarations
+        if isinstance(one, ir.Variable) and isinstance(one.type, ir.PoseType)
+    )
 
 
 def _settings_made(program: ir.Program) -> set[str]:
@@ -446,15 +520,6 @@ _MODAL: dict[str, tuple[str, str]] = {
     "blend_joint": ("joint_zone", "path"),
 }
 _FACTOR = {"joint_speed": MM_S_PER_PERCENT, "blend_joint": ZONE_MM_PER_PERCENT}
-# The proportions of the predefined zones: z10 is 10, 15, 15 mm, 1.5 deg, 15 mm, 1.5 deg.
-_ZONE_PROPORTIONS: tuple[tuple[str, float], ...] = (
-    ("path", 1.0),
-    ("rotation_path", 1.5),
-    ("external_path", 1.5),
-    ("rotation", 0.15),
-    ("linear_external", 1.5),
-    ("rotary_external", 0.15),
-)
 
 
 def _speed(path: ir.Expression, rotation: ir.Expression) -> ir.Expression:
@@ -466,5 +531,5 @@ def _speed(path: ir.Expression, rotation: ir.Expression) -> ir.Expression:
 
 
 def _zone(size: ir.Expression) -> ir.Expression:
-    entries = [("stop", ir.BoolLiteral(False)), *((n, _scaled(size, factor)) for n, factor in _ZONE_PROPORTIONS)]
+    entries = [("stop", ir.BoolLiteral(False)), *((n, _scaled(size, factor)) for n, factor in ZONE_PROPORTIONS)]
     return ir.Aggregate(tuple(entries), type_name="zone")

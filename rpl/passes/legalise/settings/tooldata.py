@@ -15,13 +15,13 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.headdata import with_data
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.values import pose_of
 
-HOME = "rpl_motion"  # the module of generated motion data
 # Functions that see the robot with a tool and in a frame -> where these stand among the arguments.
 PLACES: dict[str, tuple[int, int]] = {
     "current_target": (0, 1),
@@ -80,8 +80,8 @@ class _Kind:
     stem: str
 
 
-_TOOL = _Kind(ir.ToolType(), "frame", "rpl_with_tool")
-_FRAME = _Kind(ir.WorkObjectType(), "user_frame", "rpl_with_frame")
+_TOOL = _Kind(ir.ToolType(), "frame", "tool")
+_FRAME = _Kind(ir.WorkObjectType(), "user_frame", "wobj")
 
 
 @legalising(unless=lambda context: not context.capabilities.settings.no_tool)
@@ -91,14 +91,7 @@ def tool_data(program: ir.Program, context: Context) -> ir.Program:
     done = worker.program()
     if not worker.added:
         return done
-    at = next((number for number, one in enumerate(done.modules) if one.name == HOME), None)
-    if at is None:
-        first = done.modules[0]
-        home = ir.Module(context.fresh(HOME), first.dialect, tuple(worker.added), task=first.task)
-        return replace(done, modules=(*done.modules, home))
-    home = done.modules[at]
-    home = replace(home, declarations=(*home.declarations, *worker.added))
-    return replace(done, modules=(*done.modules[:at], home, *done.modules[at + 1 :]))
+    return with_data(done, worker.added)
 
 
 class _ToolData(Rewriter):
@@ -186,7 +179,7 @@ class _ToolData(Rewriter):
         fixed = isinstance(value, ir.Aggregate) and constant(value, self.scope) is not None
         key = (kind.stem, value)
         if key not in self.names:
-            self.names[key] = ir.Name(self.context.fresh(kind.stem))
+            self.names[key] = ir.Name(self.numbered(kind.stem))
             pose = value if fixed else _IDENTITY
             first = tool_of(pose) if kind is _TOOL else work_object_of(pose)
             name = self.names[key].id
@@ -194,6 +187,13 @@ class _ToolData(Rewriter):
         if not fixed:
             self.before.append(ir.Assign(ir.Field(self.names[key], kind.component), self.expression(value)))
         return self.names[key]
+
+    def numbered(self, stem: str) -> str:
+        """`tool1`, `tool2`, ...: the first that nothing in the program has."""
+        number = 1
+        while f"{stem}{number}" in self.context.taken:
+            number += 1
+        return self.context.fresh(f"{stem}{number}")
 
 
 def _global(place: ir.Expression | None, scope: Scope) -> ir.Variable | None:
