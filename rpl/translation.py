@@ -24,6 +24,7 @@ from rpl.passes.stretches import settled, with_stretches
 from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
+from rpl.writing.lineorigins import LineOrigins, line_origins
 from rpl.writing.names import rename, rename_hiding, renamed_twice
 from rpl.writing.target import OutputFile, WriteContext
 
@@ -43,7 +44,7 @@ SAME_FILE = code(
 class Translation:
     """Written files, the program as it was written (moves of one shape as Rows), names that changed, and what was lost
     (guarded stops). `registers`: the source names of data that has numbers in the target, by (bank, number); their
-    types beside."""
+    types beside. `write`: what has made the files of the program; its reports are dropped."""
 
     files: tuple[OutputFile, ...]
     written: ir.Program
@@ -51,7 +52,13 @@ class Translation:
     losses: tuple[Diagnostic, ...] = ()
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
     register_types: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    write: Callable[[ir.Program], Sequence[OutputFile]] | None = field(default=None, repr=False, compare=False)
     _whole: list[ir.Program] = field(default_factory=list, init=False, repr=False, compare=False)
+
+    def line_origins(self) -> LineOrigins:
+        """Where the lines of the files come from (the program is written once more for that)."""
+        write = self.write
+        return {} if write is None else at_any_depth(lambda: line_origins(self.written, self.files, write))
 
     @property
     def program(self) -> ir.Program:
@@ -182,7 +189,13 @@ def _translated(
         report(unguarded(program, capabilities, collector.items[before:]), collector)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
     named = _with_signals(program, context)
-    return Translation(tuple(files), named, renamed, losses, dict(context.register_names), dict(context.register_types))
+    registers, types = dict(context.register_names), dict(context.register_types)
+    silent = replace(asked, diagnostics=Diagnostics())
+
+    def write(program: ir.Program) -> Sequence[OutputFile]:
+        return target.write(program, silent)
+
+    return Translation(tuple(files), named, renamed, losses, registers, types, write)
 
 
 def _joined(program: ir.Program) -> ir.Program:
