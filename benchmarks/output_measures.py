@@ -230,7 +230,7 @@ def _points(declarations: Sequence[ir.Declaration]) -> set[str]:
 def run(paths: Sequence[Path], targets: Sequence[str], robot: str | None, limit: float) -> list[Row]:
     """All rows, in the order of the programs; two processes, with a line of progress on a terminal."""
     rows: dict[int, list[Row]] = {}
-    with ProcessPoolExecutor(2, max_tasks_per_child=20) as pool:
+    with ProcessPoolExecutor(2) as pool:
         jobs = {pool.submit(measured, path, targets, robot, limit): at for at, path in enumerate(paths)}
         for done, job in enumerate(as_completed(jobs), 1):
             rows[jobs[job]] = job.result()

@@ -11,6 +11,7 @@ Driven by the registry and by `samples/<language>/<sample>/expected.toml`; names
     end_xyz_mm = [x, y, z]   where the tool stands at the end
     retarget = ["..."]       other arms that the sample must run on after translation
     divergences = ["rapid: why"]     targets in which it cannot mean the same, with the reason
+    quick = ["rapid"]        targets that it is written in by the quick tests (default: all)
 """
 
 import tomllib
@@ -38,7 +39,7 @@ SAMPLES = sorted(path.parent for path in (ROOT / "samples").glob("*/*/expected.t
 TARGETS = registry.target_names()
 KNOWN_KEYS = {
     *("robot", "status", "outputs", "messages", "cell", "entry", "end_xyz_mm", "retarget", "divergences"),
-    *("title", "description", "source", "sources", "max_time"),
+    *("title", "description", "source", "sources", "max_time", "quick"),
 }
 
 
@@ -47,7 +48,6 @@ def name_of(sample: Path) -> str:
 
 
 each_sample = pytest.mark.parametrize("sample", SAMPLES, ids=name_of)
-each_target = pytest.mark.parametrize("target", TARGETS)
 
 
 @dataclass(frozen=True)
@@ -151,8 +151,18 @@ def test_it_does_what_it_says(sample: Path) -> None:
         assert stretches[-1].poses[-1, :3, 3] == pytest.approx(wanted.data["end_xyz_mm"], abs=0.01)
 
 
-@each_target
-@each_sample
+def pairs() -> list[Any]:
+    """Every sample in every target; slow where the sample leaves a target out of the quick ones."""
+    found = []
+    for sample in SAMPLES:
+        quick = expected(sample).data.get("quick", TARGETS)
+        for target in TARGETS:
+            marks = [] if target in quick else [pytest.mark.slow]
+            found.append(pytest.param(sample, target, id=f"{name_of(sample)}-{target}", marks=marks))
+    return found
+
+
+@pytest.mark.parametrize(("sample", "target"), pairs())
 def test_it_means_the_same_when_written_anew(sample: Path, target: str) -> None:
     """Equal, or refused by name; and just as docs/support.md says."""
     reason = expected(sample).divergence(target)

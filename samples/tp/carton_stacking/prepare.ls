@@ -1,0 +1,36 @@
+/PROG  PREPARE
+/ATTR
+OWNER		= MNEDITOR;
+COMMENT		= "outputs off, home";
+PROG_SIZE	= 0;
+CREATE		= DATE 26-02-10  TIME 09:00:00;
+MODIFIED	= DATE 26-02-10  TIME 09:00:00;
+FILE_NAME	= ;
+VERSION		= 0;
+LINE_COUNT	= 13;
+MEMORY_SIZE	= 0;
+PROTECT		= READ_WRITE;
+TCD:  STACK_SIZE	= 0,
+      TASK_PRIORITY	= 50,
+      TIME_SLICE	= 0,
+      BUSY_LAMP_OFF	= 0,
+      ABORT_REQUEST	= 0,
+      PAUSE_REQUEST	= 0;
+DEFAULT_GROUP	= 1,*,*,*,*;
+CONTROL_CODE	= 00000000 00000000;
+/MN
+   1:  !Outputs off, nothing counted yet ;
+   2:  UFRAME_NUM=1 ;
+   3:  UTOOL_NUM=1 ;
+   4:  PAYLOAD[1] ;
+   5:  DO[1:suction]=OFF ;
+   6:  DO[2:blow off]=OFF ;
+   7:  DO[3:stack full]=OFF ;
+   8:  R[1:cartons]=0 ;
+   9:  R[11:column]=0 ;
+  10:  R[12:row]=0 ;
+  11:  R[13:layer]=0 ;
+  12:  PR[11:place offset]=LPOS-LPOS ;
+  13:J PR[1:home] 50% FINE    ;
+/POS
+/END
