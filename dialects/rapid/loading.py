@@ -54,16 +54,24 @@ def _symbols(listing: Listing) -> Iterator[tuple[str, Place, int]]:
 
 
 def _twice_named(listings: Sequence[Listing]) -> Iterator[Place]:
-    """Modules and names that all modules see, named a second time; LOCAL ones and those of a routine in their place."""
-    everywhere: set[str] = set()
-    for listing in listings:
-        own: dict[int, set[str]] = {}
+    """Modules and names that all modules see, named a second time; LOCAL ones and those of a routine in their place.
+    A module with a `main` of its own belongs to a task of its own, where the program has several."""
+    shared: set[str] = set()
+    alone = sum(map(_has_main, listings)) > 1
+    for listing in sorted(listings, key=_has_main):
+        own: dict[int, set[str]] = {0: set(shared) if alone and _has_main(listing) else shared}
         for _, place, depth in _symbols(listing):
             name = spelled(place, False)
-            known = own.setdefault(depth, set()) if depth else everywhere
+            known = own.setdefault(depth, set())
             if name in known:
                 yield place
             known.add(name)
+
+
+def _has_main(listing: Listing) -> bool:
+    return any(
+        kind == "routine" and depth < 2 and spelled(place, False) == "main" for kind, place, depth in _symbols(listing)
+    )
 
 
 def _data_behind(listings: Sequence[Listing]) -> Iterator[Place]:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from rpl import registry
-from rpl.checks.loading import Listing, Loader, Place, Rule, Trust, beyond, having, longer, outside, twice, undefined
+from rpl.checks.loading import Listing, Loader, Place, Rule, Trust, beyond, having, longer, twice, undefined
 from rpl.source import Source
 
 _LINE = r"^[ \t]*\d*:[ \t]*"
@@ -310,15 +310,6 @@ RULES = (
         f"{_CROSSARM} 2",
         Trust.MEASURED,
         longer(r"\bMESSAGE\[([^\]\r\n]*)\]", 24, whole=True),
-    ),
-    Rule(
-        "tp-characters",
-        "a listing is of ASCII characters",
-        "shown as other characters",
-        "write them out",
-        "public listings",
-        Trust.M,
-        outside(r"\x00-\x7f"),
     ),
     Rule(
         "tp-call",

@@ -62,14 +62,5 @@ RULES = (
             r"[ \t]*(?:end|else|elif)\b"
         ),
     ),
-    Rule(
-        "urscript-program",
-        "statements stand in the function of the program",
-        "each line outside of a function is a program of its own, which ends the one before",
-        "put them between def name(): and end",
-        _MANUAL,
-        Trust.MANUAL,
-        having(r"^(?!def\b|end\b|sec\b|thread\b|#|[ \t\r\n])(\S[^\r\n]*)"),
-    ),
 )
 LOADER = Loader(RULES, _BLANKS)

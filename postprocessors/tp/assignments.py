@@ -53,7 +53,7 @@ class Assignments:
         if place.startswith(("PR[", "P[")) and not isinstance(target, ir.Field):
             return [Line(f"  {one}") for one in self.position(place, value)]
         if place.startswith("F["):
-            return [Line(f"  {place}={truth(value, self.expressions)}")]
+            return [Line(f"  {place}=({self.expressions.mixed(value)})")]
         return [Line(f"  {place}={self.expressions.value(value)}")]
 
     def system(self, target: ir.System, value: ir.Expression) -> str:
@@ -72,7 +72,7 @@ class Assignments:
             case "timer_stopped", (index,), ir.BoolLiteral(value=stopped):
                 return f"{self.expressions.numbered('TIMER', index)}={'STOP' if stopped else 'START'}"
             case "flag", (index,), _:
-                return f"{self.expressions.numbered('F', index)}={truth(value, self.expressions)}"
+                return f"{self.expressions.numbered('F', index)}=({self.expressions.mixed(value)})"
         raise CannotSayError(f"{target.name.replace('_', ' ')} cannot be set like this")
 
     # ---- position registers
@@ -187,7 +187,7 @@ def _element(place: str, element: int) -> str:
 
 
 def truth(value: ir.Expression, expressions: Expressions) -> str:
-    """What a flag or an output is set to: ON, OFF, or mixed logic."""
+    """What an output is set to: ON, OFF, or mixed logic."""
     if isinstance(value, ir.BoolLiteral):
         return "ON" if value.value else "OFF"
     if isinstance(value, ir.Convert) and value.how == "truth":
@@ -201,7 +201,9 @@ def set_output(signal: ir.Signal, value: ir.Expression, expressions: Expressions
     """`DO[1]=ON`, `GO[2]=5`."""
     shown = expressions.signal(signal)
     word = shown.partition("[")[0]
-    if word in ("DO", "RO", "SO", "UO", "WO", "WSO", "F", "M", "SEMAPHORE"):
+    if word in ("F", "M"):
+        return f"{shown}=({expressions.mixed(value)})"
+    if word in ("DO", "RO", "SO", "UO", "WO", "WSO", "SEMAPHORE"):
         return f"{shown}={truth(value, expressions)}"
     if word == "GO" and isinstance(value, ir.Convert) and value.how == "trunc":
         value = value.operand  # the controller cuts the number by itself

@@ -24,6 +24,8 @@ from .texts import ascii_text, comment, number, register_comment
 
 _ELEMENT = re.compile(r"(?P<bank>R|PR|SR|F|AR|P|TIMER)\[?(?P<number>\d+)\]?", re.IGNORECASE)
 _NAMED = re.compile(r"(?P<kind>[A-Z]{1,9})\[?(?P<number>\d+)\]?", re.IGNORECASE)
+# A flag or a marker in a condition: controllers list them in brackets only.
+_FLAG = re.compile(r"(?:^|[ =>])[FM]\[")
 _LAST = 99999
 ACTIVE = {"UFRAME_NUM": "$MNUFRAMENUM[1]", "UTOOL_NUM": "$MNUTOOLNUM[1]"}
 
@@ -300,7 +302,12 @@ class Expressions:
     # ---- conditions
 
     def condition(self, expression: ir.Expression) -> str:
-        """The shorter way: comparisons joined by AND or by OR, else mixed logic in brackets."""
+        """The shorter way: comparisons joined by AND or by OR, else mixed logic in brackets; so are flags, always."""
+        plain = self.comparisons(expression)
+        return plain if plain is not None and not _FLAG.search(plain) else f"({self.mixed(expression)})"
+
+    def watched(self, expression: ir.Expression) -> str:
+        """What SKIP CONDITION and WHEN take: comparisons wherever they say it."""
         plain = self.comparisons(expression)
         return plain if plain is not None else f"({self.mixed(expression)})"
 

@@ -335,7 +335,7 @@ class Idioms:
                 disarmed = ir.ControlInterrupt("off", handle)
                 at_once = ir.If(((watch.condition, (disarmed, watch.action)),))
                 level = len(body) > 2 and body[2] == at_once
-                condition = self.printer.expressions.condition(watch.condition)
+                condition = self.printer.expressions.watched(watch.condition)
                 if not level:
                     if not condition.endswith("=ON") or " " in condition:
                         return 0

@@ -490,7 +490,7 @@ class Motion:
                 raise CannotSayError("an action by distance and by time")
             if distance > 1e-6:
                 raise CannotSayError("an action by distance comes before the end of the move")
-            return f"DB {number_text(max(0.0, -float(distance)), 1, tables.NUMBERS)}mm,{action}"
+            return f"DB {number_text(max(0.0, -float(distance)), 1, tables.DISTANCES)}mm,{action}"
         delay = measured(trigger.delay, "s") if trigger.delay is not None else 0
         if delay is None:
             raise CannotSayError("an action by time comes at a constant time")

@@ -491,9 +491,9 @@ class Printer(StatementPrinter[Line]):
         if from_listing(move.origin):
             self.comments_only(move.origin)  # the condition stands where the listing had it
         else:
-            self.line(f"SKIP CONDITION {self.expressions.condition(search.condition)}    ", move.origin)
+            self.line(f"SKIP CONDITION {self.expressions.watched(search.condition)}    ", move.origin)
         if flag:
-            self.line(f"{flag}=OFF")
+            self.line(f"{flag}=(OFF)")
         self.put([*self.motion.before, line])
         self.triggers_done(move)
 
@@ -504,7 +504,7 @@ class Printer(StatementPrinter[Line]):
         flag = "" if hit is None else self.expressions.place(hit)
         self.searching(move, behind, flag)
         if flag:
-            self.line(f"{flag}=ON")
+            self.line(f"{flag}=(ON)")
         self.line(f"LBL[{behind}]")
 
     # ---- waits, messages
@@ -515,9 +515,9 @@ class Printer(StatementPrinter[Line]):
             raise CannotSayError("a wait that raises an error")
         behind = self.labels.fresh("")
         flag = "" if wait.timed_out is None else self.expressions.place(wait.timed_out)
-        self.limited(wait, behind, f"{flag}=ON" if flag else "")
+        self.limited(wait, behind, f"{flag}=(ON)" if flag else "")
         if flag:
-            self.line(f"{flag}=OFF")
+            self.line(f"{flag}=(OFF)")
         self.line(f"LBL[{behind}]")
 
     def limited(self, wait: ir.WaitUntil, label: int, before: str = "") -> None:

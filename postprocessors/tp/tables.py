@@ -43,6 +43,7 @@ PRODUCTS: Final = frozenset(("*", "/", "div", "mod"))
 # M: a plain line (without brackets) has at most five operators of one family, a plain condition five comparisons.
 LONGEST_PLAIN: Final = 5
 NUMBERS: Final = NumberStyle(exponent="")
+DISTANCES: Final = NumberStyle(exponent="", always_point=True)  # DB 70.0mm
 
 # Instructions with one argument in brackets that stand alone behind the equals sign.
 FUNCTIONS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("functions"))

@@ -53,7 +53,7 @@ def test_actions_where_a_way_begins() -> None:
     lines = [line.partition(":")[2].strip() for line in text.splitlines()]
     at = next(n for n, line in enumerate(lines) if line.startswith("DO[1]=ON"))
     assert lines[at + 1].startswith("L PR[")  # the length of this way is not known: in front of the move
-    assert "DB 30mm,DO[2]=ON" in text
+    assert "DB 30.0mm,DO[2]=ON" in text
 
 
 IN_A_CORNER = """DEF corner( )

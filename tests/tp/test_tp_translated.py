@@ -111,8 +111,8 @@ END
 def test_actions_on_the_path_stand_at_the_move() -> None:
     files, _ = same_in_tp("krl", KRL_PATH)
     text = files["P.LS"]
-    assert "DB 90mm,DO[1]=ON DB 15mm,DO[1]=OFF TA 0.02sec,DO[2]=ON" in text
-    assert "DB 20mm,CALL MARK" in text
+    assert "DB 90.0mm,DO[1]=ON DB 15.0mm,DO[1]=OFF TA 0.02sec,DO[2]=ON" in text
+    assert "DB 20.0mm,CALL MARK" in text
 
 
 RAPID_PATH = """MODULE m
@@ -131,7 +131,7 @@ ENDMODULE
 
 def test_stored_actions_on_the_path() -> None:
     files, _ = same_in_tp("rapid", RAPID_PATH)
-    assert "DB 90mm,DO[1:doGun]=ON DB 5mm,DO[1:doGun]=OFF" in files["MAIN.LS"]
+    assert "DB 90.0mm,DO[1:doGun]=ON DB 5.0mm,DO[1:doGun]=OFF" in files["MAIN.LS"]
 
 
 MATRIX = """def p():

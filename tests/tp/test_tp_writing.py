@@ -30,7 +30,7 @@ ASSIGNMENTS = [
     ("PR[3] = {x: 1, y: 2, z: 3, a: 0, b: 0, c: 0}", "PR[3]=P[3]"),
     ("PR[3] = offset(PR[3], 0, 0, -R[2])", "PR[3,3]=(PR[3,3]+((-1)*R[2]))"),
     ("PR[3] = offset(PR[3], 0, -5, 0)", "PR[3,2]=PR[3,2]-5"),
-    ("F[1] = TRUE", "F[1]=ON"),
+    ("F[1] = TRUE", "F[1]=(ON)"),
     ("F[1] = R[1] > 3.0 AND NOT di[2]", "F[1]=(R[1]>3 AND !DI[2])"),
     ("F[1] = R[1] > 3.0 AND di[1] OR F[2]", "F[1]=((R[1]>3 AND DI[1]) OR F[2])"),
     ("SET do[1] TO ON", "DO[1]=ON"),
@@ -91,7 +91,7 @@ FLOW = [
     ("WAIT UNTIL di[1] AND NOT di[2]", ["WAIT DI[1]=ON AND DI[2]=OFF"]),
     ("WAIT UNTIL R[1] > 3.0 OR di[1] AND di[2]", ["WAIT (R[1]>3 OR (DI[1] AND DI[2]))"]),
     ("WAIT UNTIL di[1] TIMEOUT 5 s FLAG F[7]",
-     ["$WAITTMOUT=(500)", "F[7]=ON", "WAIT DI[1]=ON TIMEOUT,LBL[1]", "F[7]=OFF", "LBL[1]"]),
+     ["$WAITTMOUT=(500)", "F[7]=(ON)", "WAIT DI[1]=ON TIMEOUT,LBL[1]", "F[7]=(OFF)", "LBL[1]"]),
     ('MESSAGE "hello operator"', ["MESSAGE[hello operator]"]),
     ("START TASK other()", ["RUN OTHER"]),
 ]  # fmt: skip
@@ -124,7 +124,7 @@ MOVES = [
     ),
     (
         "MOVE LINEAR TO P1 SPEED 100 mm/s TRIGGER AT end DISTANCE -20 mm DO SET do[3] TO ON",
-        "L P[1] 100mm/sec FINE DB 20mm,DO[3]=ON",
+        "L P[1] 100mm/sec FINE DB 20.0mm,DO[3]=ON",
     ),
 ]
 
@@ -255,7 +255,7 @@ def test_an_action_counted_from_the_start_is_counted_from_the_end() -> None:
     there = "MOVE LINEAR TO P1 SPEED 100 mm/s"
     line = "MOVE LINEAR TO {x: 400, y: 30, z: 340, a: 180, b: 0, c: 180} SPEED 100 mm/s"
     found = lines(f"{there}\n{line} TRIGGER AT start DISTANCE 5 mm DO SET do[3] TO ON")
-    assert found[1] == "L P[3] 100mm/sec FINE DB 45mm,DO[3]=ON"
+    assert found[1] == "L P[3] 100mm/sec FINE DB 45.0mm,DO[3]=ON"
     via, goal = "x: 410, y: 10, z: 300, a: 180, b: 0, c: 180", "x: 400, y: 20, z: 300, a: 180, b: 0, c: 180"
     half = f"MOVE CIRCULAR VIA {{{via}}} TO {{{goal}}}"
     text, codes = listing(f"{there}\n{half} SPEED 100 mm/s TRIGGER AT start DO SET do[3] TO ON")

@@ -42,7 +42,7 @@ SAME = [
     "L P[2] 30inch/min FINE INC",
     "L P[2] 45deg/sec FINE Wjnt",
     "L P[2] 200mm/sec FINE TB 0.2sec,DO[4]=PULSE,0.5sec",
-    "L P[2] 200mm/sec FINE DB 10mm,CALL A",
+    "L P[2] 200mm/sec FINE DB 10.0mm,CALL A",
     "J P[R[3]] 20% FINE",
     "L P[1:home] 50mm/sec FINE EV50%",
     "FOR R[1]=1 TO R[2]\nR[3]=R[1]\nENDFOR",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
+from .arguments import arguments_in_registers
 from .components import read_components
 from .composition import compositions
 from .longlogic import long_logic
@@ -15,5 +16,6 @@ PASSES: tuple[Placed, ...] = (
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
     Placed(compositions, "records", behind="drop_unread_parameters"),
     Placed(read_components, "control", behind="fit_loops"),
+    Placed(arguments_in_registers, "control", behind="fit_loops"),
     Placed(long_logic, "control", behind="fit_loops"),
 )
