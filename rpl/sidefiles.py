@@ -26,7 +26,7 @@ class SideFile:
     own: bool = True
 
 
-REGISTERS = SideFile("the map of numbered data that a translation wrote", "translate takes it with --registers")
+MAP = SideFile("the map of names and numbers that a translation wrote", "translate takes it with --map")
 CELL = SideFile("a cell file", "run, translate and prove take it with --cell")
 ROBOT = SideFile("a robot file", "give it with --robot")
 CONTROLLER = SideFile("a controller file", "run, prove and fit take it with --controller")
@@ -44,8 +44,6 @@ def side_file(source: Source) -> SideFile | None:
     head = text[:200].lstrip("\ufeff \t\r\n").lower()
     if path.endswith(".toml"):
         return _toml(source)
-    if head.startswith("bank,number,name"):
-        return REGISTERS if _is_map(source) else None
     if head.startswith("<!doctype html"):
         return PAGE
     if path.endswith(".urdf") or head.startswith("<robot"):
@@ -53,16 +51,6 @@ def side_file(source: Source) -> SideFile | None:
     if head.startswith("{"):
         return _json(text)
     return None
-
-
-def _is_map(source: Source) -> bool:
-    from rpl.writing.registers import parse_registers
-
-    try:
-        parse_registers(source.text, source.path)
-    except UsageError:
-        return False
-    return True
 
 
 def _toml(source: Source) -> SideFile | None:
@@ -73,7 +61,10 @@ def _toml(source: Source) -> SideFile | None:
         return SETTINGS
     from rpl.cell import parse_cell
     from rpl.motionmodel import UNCERTAIN
+    from rpl.writing.namemap import is_map
 
+    if is_map(dict.fromkeys(keys)):
+        return MAP
     if {"kind", "geometry", "axes"} <= keys:
         return ROBOT
     if {"status", "title"} <= keys:

@@ -25,7 +25,8 @@ from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
 from rpl.writing.lineorigins import LineOrigins, line_origins
-from rpl.writing.names import rename, rename_hiding, renamed_twice
+from rpl.writing.namemap import NameMap, check_map
+from rpl.writing.names import NO_MAP, named, rename, rename_hiding, renamed_twice
 from rpl.writing.target import OutputFile, WriteContext
 
 _MOST_NAMED = 5
@@ -38,13 +39,22 @@ SAME_FILE = code(
     "two results would be written as {path} (from {names})",
     "give one of them another name, or translate them one by one",
 )
+NOT_KEPT = code(
+    "map-not-kept",
+    Severity.WARNING,
+    "the map gives {name} the number {number} of {bank}; it has {other}",
+    "the source says that number, or another one has the map's: change it in the source, or in the map",
+    several="{count} names have another number than the map says: [{name} ({bank} {number}, now {other})]",
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Translation:
     """Written files, the program as it was written (moves of one shape as Rows), names that changed, and what was lost
     (guarded stops). `registers`: the source names of data that has numbers in the target, by (bank, number); their
-    types beside. `write`: what has made the files of the program; its reports are dropped."""
+    types beside. `names`: every name that was given, source -> target; `map`: both as a file keeps them, with what an
+    earlier map says of names that the program has no more. `write`: what has made the files of the program; its reports
+    are dropped."""
 
     files: tuple[OutputFile, ...]
     written: ir.Program
@@ -52,6 +62,8 @@ class Translation:
     losses: tuple[Diagnostic, ...] = ()
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
     register_types: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    names: Mapping[str, str] = field(default_factory=dict)
+    map: NameMap = field(default_factory=NameMap)
     write: Callable[[ir.Program], Sequence[OutputFile]] | None = field(default=None, repr=False, compare=False)
     _whole: list[ir.Program] = field(default_factory=list, init=False, repr=False, compare=False)
 
@@ -90,7 +102,7 @@ def translate_program(
     robot: str | None = None,
     to_robot: str | None = None,
     diagnostics: Diagnostics | None = None,
-    registers: Mapping[tuple[str, int], str] | None = None,
+    earlier: NameMap = NO_MAP,
     options: Mapping[str, str] | None = None,
     given: Mapping[str, object] | None = None,
     mechanisms: tuple[Mechanism, ...] = (),
@@ -100,11 +112,11 @@ def translate_program(
     """Write a program that was read in another language (or anew in its own).
 
     target_name: its name or an alias (registry.target_called). robot: the arm the source was written for; to_robot: the
-    arm that will run the result (default: the same). Raises UsageError for unknown names. `registers`: numbers that an
-    earlier translation gave (Translation.registers). `options`: the target's own, by name (Target.options). `given`:
-    values of data that the controller keeps and the program does not set, by name (the variables of a cell file); what
-    is written for another controller sets them. `mechanisms`: those of the cell, beside those of the robot's file.
-    `analog`: ranges of analogue signals (the cell's `[analog.LANGUAGE]`).
+    arm that will run the result (default: the same). Raises UsageError for unknown names. `earlier`: names and numbers
+    that an earlier translation gave or a person chose (Translation.map); they are kept. `options`: the target's own, by
+    name (Target.options). `given`: values of data that the controller keeps and the program does not set, by name (the
+    variables of a cell file); what is written for another controller sets them. `mechanisms`: those of the cell, beside
+    those of the robot's file. `analog`: ranges of analogue signals (the cell's `[analog.LANGUAGE]`).
     `templates`: a plant's own for the target, path -> text (rpl.writing.house); one that fails or that writes another
     program is an error.
     What the target cannot say is written as a guarded stop and listed in `losses`.
@@ -116,15 +128,16 @@ def translate_program(
     source = read.dialects[0] if read.dialects else target_name
     own = options or {}
     capabilities = registry.target(target_name).capabilities_under(own)
+    check_map(earlier, target_name, capabilities.storage)
 
     languages = (*(module.dialect for module in read.reduced.modules), target_name)
 
     def translated(program: ir.Program, stretches: tuple[Stretch, ...]) -> Translation:
         context = Context(source, target_name, capabilities, collector, first, second)
-        context.registers, context.stretches, context.before = registers or {}, stretches, len(collector)
+        context.registers, context.stretches, context.before = earlier.numbers, stretches, len(collector)
         context.analog = {one: analog_ranges(program, one, analog) for one in dict.fromkeys(languages)}
         whole = with_given(program, given) if given and source != target_name else program
-        return _translated(whole, context, second, own, templates or {})
+        return _translated(whole, context, second, own, templates or {}, earlier)
 
     if source == target_name:
         return at_any_depth(lambda: translated(read.program, ()), collector)
@@ -157,6 +170,7 @@ def _translated(
     robot: RobotModel | None,
     options: Mapping[str, str],
     templates: Mapping[str, str],
+    earlier: NameMap,
 ) -> Translation:
     source, target_name, capabilities = context.source, context.target, context.capabilities
     collector, target = context.diagnostics, registry.target(context.target)
@@ -165,7 +179,7 @@ def _translated(
     if source != target_name:
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
-        program, legal = rename(legalise(whole, context, target.passes()), capabilities.names)
+        program, legal = rename(legalise(whole, context, target.passes()), capabilities.names, earlier, hiding)
         program = settled(program, context.stretches, collector.items[before:])
         program = program if target.rows else expanded(program)
         renamed = renamed_twice(hiding, legal)
@@ -188,14 +202,40 @@ def _translated(
     if source != target_name and not capabilities.carries_rules:
         report(unguarded(program, capabilities, collector.items[before:]), collector)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
-    named = _with_signals(program, context)
-    registers, types = dict(context.register_names), dict(context.register_types)
+    written, numbers, types = _with_signals(program, context), context.register_names, context.register_types
+    names = named(program, renamed, bool(capabilities.storage.banks)) if source != target_name else {}
+    groups = _groups(context) if names and capabilities.storage.banks else {}
+    given = NameMap(target_name, names, {**numbers, **groups, **_signals(context, renamed)}, types).behind(earlier)
+    _not_kept(given, earlier, collector)
     silent = replace(asked, diagnostics=Diagnostics())
 
     def write(program: ir.Program) -> Sequence[OutputFile]:
         return target.write(program, silent)
 
-    return Translation(tuple(files), named, renamed, losses, registers, types, write)
+    return Translation(tuple(files), written, renamed, losses, dict(numbers), dict(types), names, given, write)
+
+
+def _groups(context: Context) -> dict[tuple[str, int], str]:
+    """Groups of signals that are written by the numbers of their bits: (kind, first number) -> name."""
+    return {
+        (one.kind.replace("digital", "group"), one.index.value): name
+        for name, one in context.signal_groups.items()
+        if one.last is not None and isinstance(one.index, ir.IntLiteral)
+    }
+
+
+def _signals(context: Context, renamed: Mapping[str, str]) -> dict[tuple[str, int], str]:
+    """Numbered signals by the names that they are written with: (kind, number) -> name."""
+    return {at: renamed.get(name, name) for at, name in context.signal_names.items()}
+
+
+def _not_kept(given: NameMap, earlier: NameMap, diagnostics: Diagnostics) -> None:
+    """Report the lines of a map that say another number than the program itself."""
+    now = {(bank, name): number for (bank, number), name in given.numbers.items()}
+    for (bank, number), name in earlier.numbers.items():
+        other = now.get((bank, name), number)
+        if other != number:
+            diagnostics.report(NOT_KEPT, name=name, bank=bank, number=number, other=other)
 
 
 def _joined(program: ir.Program) -> ir.Program:

@@ -64,10 +64,11 @@ def refuse_others(paths: Sequence[Path]) -> None:
             raise UsageError(f"{path} {reason}: it is not overwritten (--force does)")
 
 
-def write_files(files: Mapping[Path, bytes]) -> None:
+def write_files(files: Mapping[Path, bytes], ours: Sequence[Path | None] = ()) -> None:
     """Write files and the folders above them: all under temporary names first, so that a failure leaves what was there.
-    Raises UsageError when one is not ours to overwrite, or when the system refuses."""
-    refuse_others(list(files))
+    `ours`: files that are written anew on purpose. Raises UsageError when another one is not ours to overwrite, or when
+    the system refuses."""
+    refuse_others([path for path in files if path not in ours])
     made: list[tuple[Path, Path]] = []
     try:
         for path, data in files.items():

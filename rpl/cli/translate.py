@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from rpl.proof.verdict import ProofResult
     from rpl.report.readiness import Readiness
     from rpl.translation import Translation
+    from rpl.writing.namemap import NameMap
     from rpl.writing.target import OutputFile
 
 OK, NO, GUARDED = 0, 1, 3
@@ -59,10 +60,11 @@ OK, NO, GUARDED = 0, 1, 3
 @click.option("--prove", "proving", is_flag=True, help="Run both programs and compare what they do.")
 @click.option("--cell", metavar="F.toml", help="Values of data that the controller keeps; surroundings for the proof.")
 @click.option(
-    "--registers",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--map",
+    "chosen",
+    type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Numbers of data that an earlier translation wrote (registers.csv); they are kept.",
+    help="Keep the names and numbers in this file (map.toml of an earlier run, edited or not) and add the new ones.",
 )
 @click.option(
     "--option", "options", multiple=True, metavar="NAME=VALUE", help="An option of the target language; repeatable."
@@ -86,7 +88,7 @@ def command(
     dialect: str | None,
     output: Path | None,
     proving: bool,
-    registers: Path | None,
+    chosen: Path | None,
     options: Sequence[str],
     templates: Path | None,
     strict: bool,
@@ -110,7 +112,7 @@ def command(
     target = _target(target, own)
     robots_exist(*arms)
     _certifiable(kept, paths, output)
-    house, numbers = _house(templates, target), _numbers(registers)
+    house, earlier = _house(templates, target), _earlier(chosen)
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
     read = read_paths(paths, dialect, diagnostics)
@@ -119,13 +121,13 @@ def command(
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
-        translation = _translated(read, target, arms, diagnostics, numbers, own, around, house)
+        translation = _translated(read, target, arms, diagnostics, earlier, own, around, house)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
         return _refuse(read, diagnostics, as_json)
     proving = proving or about["explore"] or kept is not None
-    written = _put(translation, target, output, kept, proving, as_json)
+    written = _put(translation, target, output, (chosen, kept), proving, as_json)
     proof = None
     if proving:
         about |= {"a": paths[0], "b": str(output), "language_a": dialect, "language_b": target}
@@ -148,11 +150,11 @@ def _house(templates: Path | None, target: str) -> Mapping[str, str] | None:
     return None if templates is None else house_files(templates, target, registry.target_names())
 
 
-def _numbers(registers: Path | None) -> Mapping[tuple[str, int], str] | None:
-    """The numbers that an earlier translation gave."""
-    from rpl.writing.registers import read_registers
+def _earlier(chosen: Path | None) -> NameMap:
+    """The names and numbers that are kept; none where there is no such file yet."""
+    from rpl.writing.namemap import NameMap, read_map
 
-    return read_registers(registers) if registers is not None else None
+    return read_map(chosen) if chosen is not None and chosen.exists() else NameMap()
 
 
 def _translated(
@@ -160,7 +162,7 @@ def _translated(
     target: str,
     arms: tuple[str | None, str | None],
     diagnostics: Diagnostics,
-    numbers: Mapping[tuple[str, int], str] | None,
+    earlier: NameMap,
     own: Mapping[str, str],
     around: Cell | None,
     house: Mapping[str, str] | None,
@@ -172,7 +174,7 @@ def _translated(
         target,
         *arms,
         diagnostics,
-        numbers,
+        earlier,
         own,
         given=around.variables if around is not None else None,
         mechanisms=around.mechanisms if around is not None else (),
@@ -272,35 +274,50 @@ def _raise_approximations(diagnostics: Diagnostics, first: int) -> None:
 
 
 def _put(
-    translation: Translation, target: str, output: Path | None, kept: Path | None, proving: bool, as_json: bool
+    translation: Translation,
+    target: str,
+    output: Path | None,
+    named: tuple[Path | None, Path | None],
+    proving: bool,
+    as_json: bool,
 ) -> list[dict[str, object]]:
     """Write the result into its folder; without one give the text of what is printed."""
     alone = output is None and not as_json
     shown = _printed(translation, target, proving) if alone else translation.files
-    _alone(kept, output, translation.files, target)
-    return _write(shown, output, _registers(translation), kept)
+    _alone(named[1], output, translation.files, target)
+    return _write(shown, output, translation.map, named)
 
 
 def _write(
-    files: Sequence[OutputFile], output: Path | None, registers: bytes | None, kept: Path | None
+    files: Sequence[OutputFile], output: Path | None, given: NameMap, named: tuple[Path | None, Path | None]
 ) -> list[dict[str, object]]:
-    """Write the files, with the numbers that data has got beside them; give their text when no folder is named. `kept`:
-    the certificate, which is written later."""
-    from rpl.writing.registers import FILE_NAME
+    """Write the files, with the map of names and numbers beside them or in the place that is `named` for it; give their
+    text when no folder is named. The second of `named` is the certificate, which is written later."""
+    from rpl.writing.namemap import FILE_NAME, map_text
+
+    chosen, kept = named
+    home = chosen if chosen is not None else output / FILE_NAME if output is not None else None
 
     for file in files:
         inside = PurePosixPath(file.path)
         if inside.is_absolute() or ".." in inside.parts:
             raise UsageError(f"the name {file.path!r} leads out of the output folder: nothing is written under it")
+    beside = {home: map_text(given).encode("utf-8")} if home is not None and (given.names or given.numbers) else {}
     if output is None:
+        write_files(beside, ours=(chosen,))
         return [{"path": file.path, "text": _text(file)} for file in files]
     written = {output / PurePosixPath(file.path): file.data for file in files}
-    if registers is not None:
-        written[output / FILE_NAME] = registers
-    write_files(written)
-    for old in stale(output, [*written, *([kept] if kept is not None else [])]):
+    written |= beside
+    write_files(written, ours=(chosen,))
+    own = [path for path in written if path.is_relative_to(output)]
+    for old in stale(output, [*own, *([kept] if kept is not None else [])]):
         say(f"warning: {old} is left of an earlier translation", err=True)
-    return [{"path": path.relative_to(output).as_posix(), "written": str(path)} for path in written]
+    return [{"path": _inside(path, output), "written": str(path)} for path in written]
+
+
+def _inside(path: Path, output: Path) -> str:
+    """The path from the folder that is written, or as it is for a file elsewhere."""
+    return path.relative_to(output).as_posix() if path.is_relative_to(output) else str(path)
 
 
 def _printed(translation: Translation, target: str, proving: bool) -> Sequence[OutputFile]:
@@ -329,15 +346,6 @@ def _printed(translation: Translation, target: str, proving: bool) -> Sequence[O
 def _of_library(file: OutputFile) -> bool:
     """Written for the program from our own library (the prefix of names that translations make)."""
     return PurePosixPath(file.path).name.lower().startswith("rpl_")
-
-
-def _registers(translation: Translation) -> bytes | None:
-    """The numbers that data has got, if any."""
-    from rpl.writing.registers import registers_text
-
-    if not translation.registers:
-        return None
-    return registers_text(translation.registers, translation.register_types).encode("utf-8")
 
 
 def _text(file: OutputFile) -> str:

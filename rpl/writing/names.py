@@ -4,21 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
+from rpl.writing.namemap import NameMap
 from rpl.writing.target import NameRules
 from rpl.writing.text import NameMangler
 
+NO_MAP = NameMap()
 
-def rename(program: ir.Program, rules: NameRules) -> tuple[ir.Program, dict[str, str]]:
-    """The program with names that the target accepts, and source name -> new name of those that changed."""
+
+def rename(
+    program: ir.Program, rules: NameRules, earlier: NameMap = NO_MAP, hiding: Mapping[str, str] = MappingProxyType({})
+) -> tuple[ir.Program, dict[str, str]]:
+    """The program with names that the target accepts, and source name -> new name of those that changed. `earlier`: a
+    map whose names are kept; `hiding`: what `rename_hiding` has renamed. Raises UsageError for a name of the map that
+    the target does not accept."""
     collector = _Collector()
     collector.program(program)
-    mangler = NameMangler(rules, collector.names, routines=collector.routines)
+    pinned = _pinned(collector, rules, earlier, hiding)
+    mangler = NameMangler(rules, collector.names, routines=collector.routines, pinned=pinned)
     changed = mangler.renamed()
     if not changed:
         return program, {}
@@ -42,6 +51,59 @@ def rename_hiding(program: ir.Program, rules: NameRules) -> tuple[ir.Program, di
         return program, {}
     folded = {old.lower(): new for old, new in changed.items()}
     return _Renamer(folded, collector.fields, collector.members, ProgramScope(program)).program(program), changed
+
+
+def _pinned(collector: _Collector, rules: NameRules, earlier: NameMap, hiding: Mapping[str, str]) -> dict[str, str]:
+    """Names of the program to what the map calls them. A name that keeps its spelling gets another all the same when
+    the target does not accept it (any more)."""
+    if not earlier.names:
+        return {}
+    check = NameMangler(rules, routines=collector.routines)
+    folded = {hiding.get(old, old).lower(): (old, new) for old, new in reversed([*earlier.names.items()])}
+    found: dict[str, str] = {}
+    owners: dict[str, str] = {}
+    for name in collector.names:
+        old, new = folded.get(name.lower(), ("", ""))
+        if not new:
+            continue
+        if not check.legal(new) or new.lower() in rules.predefined:
+            if new.lower() in (old.lower(), name.lower()):
+                continue
+            longest = rules.longest_routine or rules.longest if name in collector.routines else rules.longest
+            reason = f"{new!r} is no name that a program can have there: a letter, then letters and digits, at most"
+            raise earlier.complaint("names", old, f"{reason} {longest} characters, no word of the language")
+        other = owners.setdefault(new if rules.case_sensitive else new.lower(), name.lower())
+        if other != name.lower():
+            raise earlier.complaint("names", old, f"{new!r} is the name of {other} too: give one of them another")
+        found[name] = new
+    return found
+
+
+def named(program: ir.Program, renamed: Mapping[str, str], numbered: bool) -> dict[str, str]:
+    """Source name -> name of what a written program declares; where its data has numbers, of its routines alone. Names
+    of our own library are left out: nobody chooses them."""
+    back = {new: old for old, new in renamed.items()}
+    found: dict[str, str] = {}
+    for module in program.modules:
+        names = [] if numbered else [module.name]
+        for routine in module.routines:
+            names.append(routine.name)
+            if not numbered:
+                names += [one.name for one in routine.parameters]
+        for declaration in () if numbered else (*module.declarations, *_inner(module)):
+            match declaration:
+                case ir.Initialise() | ir.Unread() | ir.ExternalDeclaration():
+                    continue
+                case ir.EnumDeclaration(name=name, members=members):
+                    names += [name, *members]
+                case _:
+                    names.append(declaration.name)
+        found |= {back.get(name, name): name for name in names if not name.lower().startswith("rpl_")}
+    return found
+
+
+def _inner(module: ir.Module) -> tuple[ir.Declaration, ...]:
+    return tuple(one for routine in module.routines for one in routine.declarations)
 
 
 def renamed_twice(first: Mapping[str, str], second: Mapping[str, str]) -> dict[str, str]:

@@ -11,6 +11,7 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Decimal
+from types import MappingProxyType
 
 from rpl.errors import InternalError
 from rpl.writing.target import NameRules
@@ -152,7 +153,8 @@ class NameMangler:
     """Names of a program made legal for a target, the same way every time; `restore` gives the source's name back.
 
     One source name becomes one target name wherever it stands. `names` are all names of the program: those that are
-    legal keep their spelling, whatever the others need. Taken names are compared as the target compares them.
+    legal keep their spelling, whatever the others need. `pinned`: what some of them are called whatever else there is
+    (each legal and of one name). Taken names are compared as the target compares them.
     """
 
     __slots__ = ("_back", "_forth", "_routines", "_rules", "_source_sensitive", "_taken")
@@ -164,6 +166,7 @@ class NameMangler:
         *,
         source_case_sensitive: bool = False,
         routines: Iterable[str] = (),
+        pinned: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._rules = rules
         self._routines = {name.lower() for name in routines}
@@ -172,8 +175,10 @@ class NameMangler:
         self._back: dict[str, str] = {}
         self._taken: set[str] = set()
         ordered = list(dict.fromkeys(names))
+        for name, chosen in pinned.items():
+            self._keep(name, chosen)
         for name in ordered:
-            if self.legal(name) and self._folded(name) not in self._taken:
+            if self._key(name) not in self._forth and self.legal(name) and self._folded(name) not in self._taken:
                 self._keep(name, name)
         for name in ordered:
             self.name(name)

@@ -15,12 +15,12 @@ CONTROLLER = (ROOT / "dialects/krl/controller.toml").read_text("utf-8")
 ROBOT = (ROOT / "rpl/robots/ur5e.toml").read_text("utf-8")
 EXPECTED = (ROOT / "samples/krl/palletiser/expected.toml").read_text("utf-8")
 CELL = '[[input]]\ntime = 1.0\nsignal = "di1"\nvalue = true\n'
-REGISTERS = "bank,number,name,type\nR,1,count,int\n"
+MAP = 'target = "tp"\n[numbers.R]\n1 = "count"\n'
 TRACE = '{"t": 0.0, "task": "main", "kind": "wait", "file": "a.src", "line": 2, "seconds": 1}\n'
 PROGRAM = "DEF demo()\n$OUT[1]=TRUE\nEND\n"
 OWN = {
     "cell.toml": (CELL, "cell file"),
-    "registers.csv": (REGISTERS, "--registers"),
+    "map.toml": (MAP, "--map"),
     "expected.toml": (EXPECTED, "must show"),
     "arm.toml": (ROBOT, "robot file"),
     "law.toml": (CONTROLLER, "controller file"),
@@ -78,4 +78,4 @@ def test_what_translate_writes_is_read_back_as_it_is(tmp_path: Path, capsys: pyt
     capsys.readouterr()
     for more in ([], ["--from", "tp"]):
         assert run(["check", str(tmp_path / "out"), *more]) == 0
-        assert "registers.csv" not in "".join(capsys.readouterr())
+        assert "map.toml" not in "".join(capsys.readouterr())

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from rpl.cli.main import run
+from rpl.writing.namemap import read_map
 
 PROGRAM = """DEF demo()
 INT i
@@ -126,8 +127,7 @@ def counts(path: Path, *names: str) -> Path:
 
 
 def numbers(file: Path) -> dict[str, tuple[str, int]]:
-    rows = [line.split(",") for line in file.read_text().splitlines()[1:]]
-    return {name.lower(): (bank, int(number)) for bank, number, name, _ in rows}
+    return {name.lower(): at for at, name in read_map(file).numbers.items()}
 
 
 def test_numbers_of_an_earlier_translation_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -135,30 +135,57 @@ def test_numbers_of_an_earlier_translation_are_kept(tmp_path: Path, capsys: pyte
     first, second, anew = tmp_path / "first", tmp_path / "second", tmp_path / "anew"
     program = counts(tmp_path / "counts.src", "parts", "boxes")
     assert run(["translate", str(program), "--to", "tp", "-o", str(first)]) == 0
-    before = numbers(first / "registers.csv")
+    before = numbers(first / "map.toml")
     counts(program, "added", "boxes", "parts")
-    kept = ["--registers", str(first / "registers.csv")]
+    kept = ["--map", str(first / "map.toml")]
     assert run(["translate", str(program), "--to", "tp", "-o", str(anew)]) == 0
     assert run(["translate", str(program), "--to", "tp", "-o", str(second), *kept, "--prove"]) == 0
-    after = numbers(second / "registers.csv")
+    after = numbers(first / "map.toml")
+    assert not (second / "map.toml").exists()
     assert {name: after[name] for name in before} == before
     assert after["added"] not in before.values()
-    assert numbers(anew / "registers.csv") != after
+    assert numbers(anew / "map.toml") != after
     bank, number = before["boxes"]
     assert f"{bank}[{number}:boxes]={bank}[{number}:boxes]+1" in (second / "COUNTS.LS").read_text()
 
 
+def test_a_map_that_is_not_there_yet_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program, chosen = counts(tmp_path / "counts.src", "parts"), tmp_path / "kept" / "line.toml"
+    assert run(["translate", str(program), "--to", "tp", "--map", str(chosen)]) == 0
+    assert numbers(chosen) == {"parts": ("R", 1)}
+
+
+def test_names_and_numbers_of_an_edited_map_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program, chosen = counts(tmp_path / "counts.src", "parts"), tmp_path / "map.toml"
+    chosen.write_text('target = "tp"\n[names]\ncounts = "COUNT_ALL"\n[numbers.R]\n12 = "parts"\n')
+    out = tmp_path / "out"
+    assert run(["translate", str(program), "--to", "tp", "-o", str(out), "--map", str(chosen), "--prove"]) == 0
+    assert "R[12:parts]=R[12:parts]+1" in (out / "COUNT_ALL.LS").read_text()
+    assert read_map(chosen).names == {"counts": "COUNT_ALL"}
+
+
+def test_a_number_that_the_source_says_is_told_where_the_map_says_another(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program, chosen = tmp_path / "grip.src", tmp_path / "map.toml"
+    program.write_text("DEF grip()\nSIGNAL grip $OUT[5]\ngrip=TRUE\nEND\n")
+    chosen.write_text('target = "tp"\n[numbers.digital_out]\n7 = "grip"\n')
+    assert run(["translate", str(program), "--to", "tp", "--map", str(chosen)]) == 0
+    assert "map-not-kept the map gives grip the number 7 of digital_out; it has 5" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("text", "answer"),
-    [("", "the first line"), ("bank,number,name,type\nR,x,parts,int\n", "numbers.csv:2"), (None, "numbers.csv")],
+    [
+        ("", "map.toml: target: a map begins"),
+        ('target = "tp"\n[numbers.R]\nx = "parts"\n', "map.toml:3: x: a line has"),
+        ('target = "tp"\n[names]\ncounts = "MOVE 7"\n', "map.toml:3: counts: 'MOVE 7' is no name that a program"),
+    ],
 )
-def test_a_file_of_numbers_that_is_none(
-    text: str | None, answer: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    program, given = counts(tmp_path / "counts.src", "parts"), tmp_path / "numbers.csv"
-    if text is not None:
-        given.write_text(text)
-    assert run(["translate", str(program), "--to", "tp", "--registers", str(given)]) == 2
+def test_a_map_that_is_none(text: str, answer: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program, given = counts(tmp_path / "counts.src", "parts"), tmp_path / "map.toml"
+    given.write_text(text)
+    assert run(["translate", str(program), "--to", "tp", "--map", str(given)]) == 2
     assert answer in capsys.readouterr().err
 
 

@@ -34,7 +34,7 @@ def translated(source: Path, output: Path, *more: str) -> int:
 def test_what_was_written_before_is_written_again(source: Path, tmp_path: Path) -> None:
     assert translated(source, tmp_path / "out") == 0
     assert translated(source, tmp_path / "out") == 0
-    assert sorted(path.suffix for path in (tmp_path / "out").iterdir()) == [".json", ".mod"]
+    assert sorted(path.suffix for path in (tmp_path / "out").iterdir()) == [".json", ".mod", ".toml"]
 
 
 def test_files_of_somebody_else_and_changed_ones_stay(

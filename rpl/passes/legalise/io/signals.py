@@ -212,8 +212,7 @@ class _Named:
             case ir.Signal(kind=kind, index=index, name=None):
                 if index is not None and _constant(index):
                     assert isinstance(index, ir.IntLiteral)
-                    name = self.aliases.get((kind, index.value)) or f"{self.prefixes.get(kind, kind)}{index.value}"
-                    return ir.Signal(kind, name=name, origin=expression.origin)
+                    return ir.Signal(kind, name=self.name_of(kind, index.value), origin=expression.origin)
                 assert index is not None
                 routine = self.routine(f"get_{kind}", expression.origin, kind, index)
                 argument = ir.Argument(self.expression(index))
@@ -224,6 +223,15 @@ class _Named:
                 inner = tuple(self.expression(index) for index in indices)
                 return ir.Index(ir.Name(self.flags), inner, origin=expression.origin)
         return rewrite_parts(expression, self.expression)
+
+    def name_of(self, kind: str, number: int) -> str:
+        """What the signal is called: in the map of an earlier translation, in the source, else by its number."""
+        said = self.context.registers.get((kind, number))
+        name = said or self.aliases.get((kind, number)) or f"{self.prefixes.get(kind, kind)}{number}"
+        if said:
+            self.context.signal_groups.setdefault(name, ir.Signal(kind, ir.IntLiteral(number)))
+        self.context.signal_names[kind, number] = name
+        return name
 
     def routine(self, what: str, origin: Origin, kind: str, index: ir.Expression) -> str:
         """The routine for signals of the kind. What the program itself puts into the index is in reach."""
@@ -326,7 +334,8 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
     widest = context.capabilities.io.widest_group
     own = rules_of(context.source).group_bits
     widths = group_widths(program, known, widest, WIDTH if alone else widest, own)
-    numbers = _numbers(names, prefixes, used, alone, {key: bits for key, (bits, _) in widths.items()})
+    earlier = {(kind, name.lower()): number for (kind, number), name in context.registers.items()}
+    numbers = _numbers(names, prefixes, used, alone, {key: bits for key, (bits, _) in widths.items()}, earlier)
     declared, aliases = _chosen(context, names, numbers, widths, alone)
 
     def replaced(expression: ir.Expression) -> ir.Expression:
@@ -420,11 +429,24 @@ def _numbers(
     numbered: dict[str, set[int]],
     alone: bool,
     widths: dict[tuple[str, str], int],
+    earlier: dict[tuple[str, str], int],
 ) -> dict[tuple[str, str], tuple[int, bool]]:
-    """Number of each named signal, and whether it was chosen (not said by its name), off the `numbered`."""
+    """Number of each named signal, and whether it was chosen (by an `earlier` map, or off the `numbered` and those that
+    the map gives to others) and not said by its name."""
     result: dict[tuple[str, str], tuple[int, bool]] = {}
     used: dict[str, set[int]] = {}
+
+    def width(kind: str, key: str) -> int:
+        return widths.get((kind, key), WIDTH) if alone and kind.startswith("group") else 1
+
     for kind, key in names:
+        if (kind, key) in earlier:
+            first = earlier[kind, key]
+            used.setdefault(_bits(kind) if alone else kind, set()).update(range(first, first + width(kind, key)))
+            result[kind, key] = (first, True)
+    for kind, key in names:
+        if (kind, key) in result:
+            continue
         match = re.fullmatch(r"([a-z_]+?)_?([1-9]\d{0,3})", key)
         # The number of a group is not that of its first bit: groups of bits are declared by their names.
         if match and not (alone and kind.startswith("group")) and match.group(1) in prefixes.get(kind, set()):
@@ -437,12 +459,13 @@ def _numbers(
             continue
         bits = _bits(kind) if alone else kind
         taken = used.setdefault(bits, set())
-        number, taken = 1, taken | numbered.get(bits, set())
+        kept = {number for (other, _), number in earlier.items() if (_bits(other) if alone else other) == bits}
+        number, taken = 1, taken | numbered.get(bits, set()) | kept
         # Groups: whole bytes of the numbers, which every controller can take at once.
-        width = widths.get((kind, key), WIDTH) if alone and kind.startswith("group") else 1
-        while any(number + bit in taken for bit in range(width)):
-            number += min(width, WIDTH)
-        used[bits].update(range(number, number + width))
+        bit_count = width(kind, key)
+        while any(number + bit in taken for bit in range(bit_count)):
+            number += min(bit_count, WIDTH)
+        used[bits].update(range(number, number + bit_count))
         result[kind, key] = (number, True)
     return result
 

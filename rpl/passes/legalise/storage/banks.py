@@ -90,6 +90,7 @@ class Numbers:
     def __post_init__(self) -> None:
         for (bank, number), name in self.context.registers.items():
             self.earlier.setdefault((bank, name.lower()), number)
+            self.earlier[bank, name] = number  # where capitals tell names apart
 
     def plan(self, wanted: Sequence[Wanted]) -> dict[int, int]:
         """id of a declaration -> its (first) number; what gets none is missing."""
@@ -115,7 +116,7 @@ class Numbers:
     def given_before(self, one: Wanted) -> int | None:
         for key in (one.key, *one.aliases):
             first = key if not one.sizes else one.element(0).replace(one.key, key, 1)
-            number = self.earlier.get((one.bank.name, first.lower()))
+            number = self.earlier.get((one.bank.name, first), self.earlier.get((one.bank.name, first.lower())))
             if number is not None:
                 return number
         return None
@@ -163,6 +164,8 @@ def enlarged(wanted: Sequence[Wanted], context: Context) -> dict[str, Bank]:
     needed: Counter[str] = Counter()
     for one in wanted:
         needed[one.bank.name] += one.count
+    for bank_name, number in context.registers:
+        needed[bank_name] = max(needed[bank_name], number)
     made: dict[str, Bank] = {}
     for one in wanted:
         bank, count = one.bank, needed[one.bank.name]

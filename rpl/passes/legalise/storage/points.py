@@ -6,6 +6,7 @@ move. Each routine numbers its own points: as an earlier translation did, as the
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import count
 
@@ -48,6 +49,22 @@ def is_whole(value: ir.Expression | None) -> bool:
     return "trans" in names or "robax" in names or names >= _POSE or "j1" in names
 
 
+def shown(value: ir.Expression) -> str:
+    """A written position in few signs: `x 450, y -350, ...`."""
+    match value:
+        case ir.Aggregate(entries=entries):
+            return ", ".join(f"{name} {shown(one)}" if name else shown(one) for name, one in entries)
+        case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
+            return repr(number).removesuffix(".0")
+        case ir.Unary(op="-", operand=operand):
+            return f"-{shown(operand)}"
+        case ir.TextLiteral(value=text):
+            return text
+        case ir.BoolLiteral(value=truth):
+            return str(truth).lower()
+    return type(value).__name__
+
+
 @dataclass(slots=True)
 class Points:
     """The points of one routine after the other."""
@@ -59,10 +76,15 @@ class Points:
     used: set[int] = field(default_factory=set)
     lowest: int = 0  # all numbers below are taken in the routine
     routine: str = ""
+    earlier: Mapping[str, int] = field(default_factory=dict)  # numbers that a map gives to points of the routine
+    kept: frozenset[int] = frozenset()
     homes: dict[int, tuple[ir.Variable, list[str]]] = field(default_factory=dict)  # who has a copy, by declaration
 
     def begin(self, routine: ir.Routine) -> None:
         self.made, self.found, self.used, self.lowest, self.routine = [], {}, set(), 0, routine.name.lower()
+        home = self.bank()
+        self.earlier = {name.lower(): at for (bank, at), name in self.context.registers.items() if bank == home}
+        self.kept = frozenset(self.earlier.values())
 
     def is_taught(self, declaration: ir.Variable, scope: Scope) -> bool:
         """Does the variable (or each element of an array) hold one position written out in constants all the time?"""
@@ -117,7 +139,8 @@ class Points:
                 self.context.diagnostics.report(COPIED, declaration.origin, name=declaration.name, routines=shown)
 
     def written(self, value: ir.Aggregate, type: ir.Type | None) -> ir.Name | None:
-        """The point for a position that is written out where it is used."""
+        """The point for a position that is written out where it is used. In the map of numbers its value stands for a
+        name."""
         if not isinstance(type, _POSITIONS) or not is_point(value):
             return None
         return self.point(value, type, value, "", value)
@@ -126,12 +149,12 @@ class Points:
         bank = self.context.capabilities.storage.points
         assert bank is not None  # asked only for targets that have points
         if key not in self.found:
-            number = self.number(label)
+            known = label or shown(value)
+            number = self.number(known)
             name = f"{bank.name}{number}"
             self.used.add(number)
-            if label:
-                self.context.register_names[self.bank(), number] = label
-                self.context.register_types[self.bank(), number] = type_word(type) or ""
+            self.context.register_names[self.bank(), number] = known
+            self.context.register_types[self.bank(), number] = type_word(type) or ""
             variable = ir.Variable(name, type, value, storage="constant", scope="routine", label=label)
             self.made.append(variable)
             self.found[key] = ir.Name(name)
@@ -145,12 +168,11 @@ class Points:
     def number(self, label: str) -> int:
         bank = self.context.capabilities.storage.points
         assert bank is not None  # asked only for targets that have points
-        earlier = {name.lower(): at for (kept, at), name in self.context.registers.items() if kept == self.bank()}
-        given = earlier.get(label.lower()) if label else None
+        given = self.earlier.get(label.lower())
         for wanted in (given, own_number(label, bank)):
             if wanted is not None and wanted not in self.used:
                 return wanted
-        reserved = (self.used, set(earlier.values()), self.own_numbers())
+        reserved = (self.used, self.kept, self.own_numbers())
         free = (
             number for number in count(max(bank.first, self.lowest)) if not any(number in some for some in reserved)
         )
