@@ -1,7 +1,6 @@
 """Bring along what the source language predefines: a target knows its own system routines and data, not another's.
 
 The parts of the source's prelude that the program uses, directly or through other parts, become modules of the program.
-Calls of small system routines with a constant selector (`BAS(#INITMOV,0)`) are replaced by what they do.
 """
 
 from __future__ import annotations
@@ -12,18 +11,11 @@ from functools import cache
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
-from rpl.passes.fold import constant, literal
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
-from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.typing import normalise
-
-_LONGEST_INLINED = 40
-_LONGEST_LOOP = 6
-_DEEPEST = 4
 
 
 @legalising()
@@ -34,8 +26,7 @@ def link_prelude(program: ir.Program, context: Context) -> ir.Program:
         prelude = _prelude(dialect)
         if prelude is None:
             continue
-        modules = _inlined(modules, prelude, usage_of(program).assigned)
-        modules = _with_own_values(modules, prelude)
+        modules = _without_externals(_with_own_values(modules, prelude), prelude)
         linked = _used_part(prelude, [module for module in modules if module.dialect == dialect], context)
         if linked is not None:
             modules.append(linked)
@@ -55,20 +46,15 @@ def _prelude(dialect: str) -> ir.Module | None:
     return done
 
 
-def _inlined(modules: list[ir.Module], prelude: ir.Module, assigned: set[str]) -> list[ir.Module]:
-    """The modules of the prelude's dialect with calls of its small routines replaced."""
-    own: set[str] = set()
-    uses = _Uses()
-    for module in modules:
-        for declaration in module.declarations:
-            own.update(_keys(declaration))
-            uses.declaration(declaration)
-        for routine in module.routines:
-            own.add(routine.name.lower())
-            uses.routine(routine)
-    inliner = _Inliner(prelude, own, assigned, uses.names)
+def _without_externals(modules: list[ir.Module], prelude: ir.Module) -> list[ir.Module]:
+    """What is said to be elsewhere and comes with the prelude needs no word any more."""
+    there = {routine.name.lower() for routine in prelude.routines}
+
+    def is_there(one: ir.Declaration) -> bool:
+        return isinstance(one, ir.ExternalDeclaration) and one.name.lower() in there
+
     return [
-        replace(module, routines=tuple(edit_bodies(routine, inliner.body) for routine in module.routines))
+        changed(module, declarations=tuple(one for one in module.declarations if not is_there(one)))
         if module.dialect == prelude.dialect
         else module
         for module in modules
@@ -251,185 +237,3 @@ def _shared(declaration: ir.Declaration) -> ir.Declaration:
         case ir.Variable() | ir.RecordDeclaration() | ir.EnumDeclaration() | ir.AliasDeclaration():
             return replace(declaration, scope="global")
     return declaration
-
-
-# ---- inlining of system routines with a constant selector
-
-
-class _Inliner:
-    """Replaces calls of small system routines by what they do: a Switch over a constant parameter is decided, a loop
-    over the axes is written out, and defaults that nothing changes are written as their values."""
-
-    def __init__(self, prelude: ir.Module, shadowed: set[str], assigned: set[str], mentioned: set[str]) -> None:
-        self.routines = {r.name.lower(): r for r in prelude.routines if r.name.lower() not in shadowed}
-        alone = ir.Program((prelude,))
-        self.scope = ProgramScope(alone).module(prelude)
-        assigned = assigned | usage_of(alone).assigned
-        self.unseen = _noted(prelude) - _read(prelude) - mentioned  # what only notes something down for nobody
-        self.defaults: dict[str, ir.Expression] = {}
-        for declaration in prelude.declarations:
-            if isinstance(declaration, ir.Variable) and declaration.initial is not None:
-                name = declaration.name.lower()
-                if name not in shadowed and name not in assigned and _is_number(declaration.initial):
-                    self.defaults[name] = declaration.initial
-
-    def body(self, statements: ir.Body) -> ir.Body:
-        done: list[ir.Statement] = []
-        for statement in statements:
-            inlined = self.call(statement, _DEEPEST) if isinstance(statement, ir.CallRoutine) else None
-            if inlined is None:
-                done.append(rewrite_parts(statement, lambda expression: expression, self.body))
-            else:
-                done.extend(inlined)
-        return tuple(done)
-
-    def call(self, call: ir.CallRoutine, depth: int) -> ir.Body | None:
-        """What the call does, as statements without locals; None when it has to stay a call."""
-        routine = self.routines.get(call.name.lower())
-        if routine is None or depth == 0 or routine.handlers or len(call.arguments) > len(routine.parameters):
-            return None
-        given = dict(self.defaults)
-        for parameter, argument in zip(routine.parameters, call.arguments, strict=False):
-            if argument.value is None or argument.name or not _repeatable(argument.value):
-                return None
-            given[parameter.name.lower()] = argument.value
-        missing = {parameter.name.lower() for parameter in routine.parameters[len(call.arguments) :]}
-        done: list[ir.Statement] = []
-        for statement in self.decided(routine.body, given):
-            inner = self.call(statement, depth - 1) if isinstance(statement, ir.CallRoutine) else (statement,)
-            if inner is None:
-                return None
-            done.extend(inner)
-        uses = _Uses()
-        uses.body(tuple(done))
-        local = {d.name.lower() for d in routine.declarations if isinstance(d, ir.Variable)}
-        if uses.names & (missing | local) or len(done) > _LONGEST_INLINED or _jumps(tuple(done)):
-            return None
-        if not done:
-            return (ir.Nothing(origin=call.origin),)
-        later = replace(call.origin, comments=())
-        return tuple(replace(statement, origin=later if at else call.origin) for at, statement in enumerate(done))
-
-    def decided(self, body: ir.Body, given: dict[str, ir.Expression]) -> ir.Body:
-        """The body with parameters replaced, constant switches decided and short loops written out."""
-        done: list[ir.Statement] = []
-        for statement in body:
-            match statement:
-                case ir.Nothing():
-                    continue
-                case ir.Switch(selector=ir.Name(id=name)) if isinstance(
-                    given.get(name.lower()), ir.EnumLiteral | ir.IntLiteral
-                ):
-                    done.extend(self.decided(_chosen(statement, given[name.lower()]), given))
-                case ir.For(start=ir.IntLiteral(value=first), stop=ir.IntLiteral(value=last), step=None) if (
-                    last - first < _LONGEST_LOOP and all(isinstance(s, ir.Assign) for s in statement.body)
-                ):
-                    for number in range(first, last + 1):
-                        counted = {**given, statement.counter.lower(): ir.IntLiteral(number)}
-                        done.extend(self.decided(statement.body, counted))
-                case ir.Assign(target=ir.Name(id=name)) if name.lower() in self.unseen:
-                    continue
-                case ir.If():
-                    done.extend(_taken(_Substitute(given, self.scope).body((statement,))))
-                case _:
-                    done.extend(_Substitute(given, self.scope).body((statement,)))
-        return tuple(done)
-
-
-def _noted(prelude: ir.Module) -> set[str]:
-    """Plain variables of the prelude, folded."""
-    return {d.name.lower() for d in prelude.declarations if isinstance(d, ir.Variable)}
-
-
-def _read(prelude: ir.Module) -> set[str]:
-    """Names that the prelude's routines mention elsewhere than as the place of a whole assignment."""
-    uses = _Uses()
-
-    def body(statements: ir.Body) -> ir.Body:
-        for statement in statements:
-            plain = isinstance(statement, ir.Assign) and isinstance(statement.target, ir.Name)
-            if isinstance(statement, ir.Assign) and plain:
-                uses.expression(statement.value)
-            else:
-                rewrite_parts(statement, uses.expression, body)
-        return statements
-
-    for routine in prelude.routines:
-        body(routine.body)
-        uses.routine(replace(routine, body=()))
-    return uses.names
-
-
-def _taken(body: ir.Body) -> ir.Body:
-    """A branch whose condition is a constant, as its statements."""
-    match body:
-        case (ir.If(branches=((ir.BoolLiteral(value=True), chosen), *_)),):
-            return chosen
-        case (ir.If(branches=((ir.BoolLiteral(value=False), _), *rest), otherwise=otherwise) as whole,):
-            return _taken((replace(whole, branches=tuple(rest)),)) if rest else otherwise
-    return body
-
-
-def _chosen(switch: ir.Switch, selector: ir.Expression) -> ir.Body:
-    for case in switch.cases:
-        if any(_same_constant(value, selector) for value in case.values):
-            return case.body
-    return switch.default or ()
-
-
-def _is_number(value: ir.Expression) -> bool:
-    return isinstance(value, ir.IntLiteral | ir.RealLiteral)
-
-
-def _is_literal(value: ir.Expression) -> bool:
-    return _is_number(value) or (isinstance(value, ir.Unary | ir.Convert) and _is_literal(value.operand))
-
-
-def _repeatable(value: ir.Expression) -> bool:
-    return isinstance(
-        value, ir.EnumLiteral | ir.IntLiteral | ir.RealLiteral | ir.BoolLiteral | ir.Name | ir.TextLiteral
-    ) or (isinstance(value, ir.Unary | ir.Convert) and _repeatable(value.operand))
-
-
-def _same_constant(one: ir.Expression, other: ir.Expression) -> bool:
-    match one, other:
-        case ir.EnumLiteral(member=a), ir.EnumLiteral(member=b):
-            return a.lower() == b.lower()
-        case ir.IntLiteral(value=c), ir.IntLiteral(value=d):
-            return c == d
-    return False
-
-
-def _jumps(body: ir.Body) -> bool:
-    found = False
-
-    def look(statements: ir.Body) -> ir.Body:
-        nonlocal found
-        for statement in statements:
-            if isinstance(statement, ir.Return | ir.Goto | ir.Label | ir.For):
-                found = True
-            rewrite_parts(statement, lambda expression: expression, look)
-        return statements
-
-    look(body)
-    return found
-
-
-class _Substitute:
-    """Replaces parameters by the arguments of one call; what then is arithmetic of literals becomes its value."""
-
-    def __init__(self, given: dict[str, ir.Expression], scope: Scope) -> None:
-        self.given, self.scope = given, scope
-
-    def expression(self, expression: ir.Expression) -> ir.Expression:
-        if isinstance(expression, ir.Name):
-            return self.given.get(expression.id.lower(), expression)
-        done = rewrite_parts(expression, self.expression)
-        if isinstance(done, ir.Binary) and _is_literal(done.left) and _is_literal(done.right):
-            value = constant(done, self.scope)
-            known = None if value is None else literal(value)
-            return done if known is None else replace(known, origin=done.origin)
-        return done
-
-    def body(self, body: ir.Body) -> ir.Body:
-        return tuple(rewrite_parts(statement, self.expression, self.body) for statement in body)

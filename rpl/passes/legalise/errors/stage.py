@@ -1,20 +1,24 @@
 """Handlers, raised errors and their numbers; then the source's own routines and data come along (its prelude), because
-errors have their names from it, and jumps out of handlers become structure. A routine for all errors stays one until
-the settings of moves are known (places).
+errors have their names from it, and what it does where all is known stands in the place of its calls; jumps out of
+handlers become structure. A routine for all errors stays one until the settings of moves are known (places).
 """
 
 from __future__ import annotations
 
+from rpl.passes.legalise.errors.bookkeeping import without_bookkeeping
+from rpl.passes.legalise.errors.declaredvalues import declared_values
 from rpl.passes.legalise.errors.errornumbers import error_numbers
 from rpl.passes.legalise.errors.errorplaces import unreachable_moves
 from rpl.passes.legalise.errors.errortexts import error_texts
 from rpl.passes.legalise.errors.interruptplaces import interrupt_places
+from rpl.passes.legalise.errors.knowncalls import known_calls
 from rpl.passes.legalise.errors.ownrecords import apart_from_neutral_records
 from rpl.passes.legalise.errors.possiblecases import possible_cases
 from rpl.passes.legalise.errors.prelude import link_prelude
 from rpl.passes.legalise.errors.usedelements import used_elements
 from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
+from rpl.passes.legalise.storage.unused import drop_unused
 
 STAGE = Stage(
     "errors",
@@ -25,7 +29,11 @@ STAGE = Stage(
         error_texts,
         link_prelude,
         apart_from_neutral_records,
+        known_calls,
+        again(drop_unused, "routines of the prelude whose calls are evaluated read nothing more"),
+        without_bookkeeping,
         used_elements,
+        declared_values,
         possible_cases,
         again(labels_to_structure, "ways through the program are followed behind it, and are structure then"),
     ),

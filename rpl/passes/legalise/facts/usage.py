@@ -56,6 +56,8 @@ class Usage:
 
     assigned: set[str] = field(default_factory=set)
     """Names assigned, used as an output, or passed where they could be changed."""
+    otherwise: set[str] = field(default_factory=set)
+    """Those of them that something else than an assignment changes."""
     sets: dict[str, set[str]] = field(default_factory=dict)
     """Routine (folded) -> system variables it may set, directly or through calls."""
     interrupting: set[str] = field(default_factory=set)
@@ -84,7 +86,9 @@ def usage_of(program: ir.Program) -> Usage:
                 each_statement(body, visit)
     unchanging = _unchanging(inner)
     for own in (usage, *(one for _, one in inner)):
-        usage.assigned |= own.assigned | _changed(own, unchanging)
+        usage.otherwise |= own.otherwise | _changed(own, unchanging)
+        usage.assigned |= own.assigned
+    usage.assigned |= usage.otherwise
     _close(usage.sets, calls)
     for name in handlers:
         usage.interrupting |= usage.sets.get(name, set())
@@ -98,7 +102,7 @@ def _unchanging(inner: list[tuple[ir.Routine, Usage]]) -> dict[str, frozenset[in
     while True:
         more: dict[str, frozenset[int]] = {}
         for routine, own in inner:
-            key, changed = routine.name.lower(), own.assigned | _changed(own, found)
+            key, changed = routine.name.lower(), own.assigned | own.otherwise | _changed(own, found)
             kept = frozenset(
                 at
                 for at, one in enumerate(routine.parameters)
@@ -130,7 +134,7 @@ def assigned_in(*found_in: ir.Body) -> set[str]:
 
     for body in found_in:
         each_statement(body, look)
-    return usage.assigned | _changed(usage, {})
+    return usage.assigned | usage.otherwise | _changed(usage, {})
 
 
 def assigned_below(program: ir.Program) -> dict[str, set[str]]:
@@ -173,25 +177,25 @@ def _assigned(statement: ir.Statement, usage: Usage) -> None:
     """Lvalues of any statement: assignment targets, outputs of built-ins, arguments that may be passed by reference."""
     match statement:
         case ir.Assign(target=target):
-            _name(target, usage)
+            _name(target, usage.assigned)
         case ir.For(counter=counter):
-            usage.assigned.add(counter.lower())
+            usage.otherwise.add(counter.lower())
         case ir.CallRoutine(name=name, arguments=arguments):
             _arguments(name, arguments, usage)
         case ir.Do(arguments=values):
             for value in values:
-                _name(value, usage)
+                _name(value, usage.otherwise)
         case ir.Dialog(answer=answer, timed_out=flag):
-            _name(answer, usage)
-            _name(flag, usage)
+            _name(answer, usage.otherwise)
+            _name(flag, usage.otherwise)
         case ir.WaitUntil(timed_out=flag):
-            _name(flag, usage)
+            _name(flag, usage.otherwise)
         case ir.Clock(clock=clock):
-            _name(clock, usage)
+            _name(clock, usage.otherwise)
         case ir.DefineTrigger(target=target):
-            _name(target, usage)
+            _name(target, usage.otherwise)
         case ir.Move(search=ir.Search(found=found)):
-            _name(found, usage)
+            _name(found, usage.otherwise)
 
 
 def _arguments(name: str, arguments: tuple[ir.Argument, ...], usage: Usage) -> None:
@@ -203,10 +207,10 @@ def _arguments(name: str, arguments: tuple[ir.Argument, ...], usage: Usage) -> N
                 usage.passed.append((name.lower(), None if named else at, variable))
 
 
-def _name(value: ir.Expression | None, usage: Usage) -> None:
+def _name(value: ir.Expression | None, names: set[str]) -> None:
     name = base_name(value) if value is not None else None
     if name is not None:
-        usage.assigned.add(name)
+        names.add(name)
 
 
 def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
