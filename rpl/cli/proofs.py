@@ -25,6 +25,7 @@ from rpl.errors import UsageError
 if TYPE_CHECKING:
     from rpl.project import ReadProgram
     from rpl.proof.certificate import Question
+    from rpl.proof.teaching.retaught import Teaching
     from rpl.proof.verdict import ProofResult
 
 certificate_option = click.option(
@@ -84,8 +85,21 @@ def answer(question: Question, programs: Sequence[ReadProgram]) -> ProofResult:
             limits=limits_of(question.max_time, question.max_steps, question.max_events),
             budget=Budget() if question.explore else None,
             kept=dict(question.names),
+            teaching=_teaching(question),
         )
     return replace(result, approximations=question.approximations)
+
+
+def _teaching(question: Question) -> Teaching | None:
+    """What of the question is about re-teaching."""
+    from rpl.proof.teaching.moving import Amount
+    from rpl.proof.teaching.retaught import Teaching
+
+    if question.teach is None:
+        return None
+    usual = Amount()
+    amount = usual if question.teach_mm is None else usual.times(question.teach_mm / usual.mm)
+    return Teaching(question.teach, amount, question.taught)
 
 
 def keep(kept: Path, question: Question, programs: Sequence[ReadProgram], result: ProofResult) -> None:

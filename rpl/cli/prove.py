@@ -11,7 +11,7 @@ from rpl.cli.files import force_option, refuse_others
 from rpl.cli.limits import limit_options
 from rpl.cli.output import STANDARD_INPUT, json_option, print_json, robot_option, say, verbose_option
 from rpl.cli.proofs import answer, certificate_option, keep, programs_of
-from rpl.cli.verdicts import accepting, exploring, status_of
+from rpl.cli.verdicts import accepting, exploring, status_of, teaching
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ HOLDS, FAILS = 0, 1
     help="Who moves both robots: a language's controller or a file; else constant accelerations.",
 )
 @exploring
+@teaching
 @accepting
 @certificate_option
 @click.option(

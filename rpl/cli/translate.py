@@ -29,7 +29,7 @@ from rpl.cli.output import (
     waiting,
 )
 from rpl.cli.proofs import answer, certificate_option, keep
-from rpl.cli.verdicts import accepting, exploring, status_of
+from rpl.cli.verdicts import accepting, exploring, status_of, teaching
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import InternalError, UsageError
 
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from rpl.cell import Cell
     from rpl.project import ReadProgram
     from rpl.proof.certificate import Question
+    from rpl.proof.teaching.pairs import Given
     from rpl.proof.tolerance import Accepted
     from rpl.proof.verdict import ProofResult
     from rpl.report.readiness import Readiness
@@ -77,6 +78,7 @@ OK, NO, GUARDED = 0, 1, 3
 )
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
 @exploring
+@teaching
 @accepting
 @certificate_option
 @force_option
@@ -101,8 +103,8 @@ def command(
 
     What the target cannot say becomes a comment and the target's own stop, is listed, and gives exit status 3. Without
     -o the program is printed. The first line says whether the result is ready, workable or not, and how many moves and
-    statements need you. With --prove, --explore or --certificate it has the verdict: equal, alike (exit status 3),
-    different or undecided (1); --accept takes measures of the proof too.
+    statements need you. With --prove, --explore, --teach or --certificate it has the verdict: equal, alike (exit
+    status 3), different or undecided (1); --accept takes measures of the proof too.
     """
     from rpl.cell import read_cell
     from rpl.proof.cellnames import report_unknown_names
@@ -126,7 +128,7 @@ def command(
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
         return _refuse(read, diagnostics, as_json)
-    proving = proving or about["explore"] or kept is not None
+    proving = proving or _asks(about) or kept is not None
     written = _put(translation, target, output, (chosen, kept), proving, as_json)
     proof = None
     if proving:
@@ -141,6 +143,11 @@ def command(
         _print(translation, written, output, proof, ready, diagnostics)
     proved = status_of(proof) if proof is not None else OK
     return proved if proved != OK or not diagnostics.has_losses else GUARDED
+
+
+def _asks(about: Mapping[str, Any]) -> bool:
+    """Is something asked that only a proof answers?"""
+    return bool(about["explore"]) or about["teach"] is not None
 
 
 def _house(templates: Path | None, target: str) -> Mapping[str, str] | None:
@@ -378,11 +385,27 @@ def _prove(
     to_entry = back.program.entry or translation.renamed.get(entry, entry) if entry else None
     signals = names_lacking(back.program, translation.program)
     names = kept_names(translation.renamed, translation.registers, back.program) if asked.explore else {}
-    question = replace(asked, entry=entry, to_entry=to_entry, signals=signals, names=tuple(sorted(names.items())))
+    question = replace(
+        asked,
+        entry=entry,
+        to_entry=to_entry,
+        signals=signals,
+        names=tuple(sorted(names.items())),
+        taught=_given(translation, back) if asked.teach is not None else (),
+    )
     result = answer(question, (read, back))
     if kept is not None:
         keep(kept, question, (read, back), result)
     return result
+
+
+def _given(translation: Translation, back: ReadProgram) -> tuple[Given, ...]:
+    """Which taught data of the result the translation made of which of the source."""
+    from rpl.proof.teaching.data import taught_data
+    from rpl.proof.teaching.pairs import given_by
+
+    numbers = ((bank, number, name) for (bank, number), name in translation.registers.items())
+    return given_by(translation.renamed.items(), numbers, taught_data(back.program))
 
 
 def _document(

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 # 3: done, but there is something that you must look at.
+_SEED = 1
 _STATUS = {"equal": 0, "alike": 3, "different": 1, "undecided": 1}
 
 
@@ -62,9 +63,41 @@ exploring = click.option(
 )
 
 
+def teaching(command: Decorated) -> Decorated:
+    """The options of re-teaching; the command gets `teach`, the seed or None, and `teach_mm`."""
+
+    @wraps(command)
+    def with_seed(teaching: bool, seed: int | None, teach_mm: float | None, **values: Any) -> Any:
+        if not teaching and (seed is not None or teach_mm is not None):
+            raise UsageError("--seed and --teach-mm say how --teach moves taught data: ask for it with --teach")
+        if teach_mm is not None and not (teach_mm >= 0.0 and math.isfinite(teach_mm)):
+            raise UsageError(f"--teach-mm: {teach_mm:g} is no distance; it takes a number from 0 on")
+        return command(teach=(seed if seed is not None else _SEED) if teaching else None, teach_mm=teach_mm, **values)
+
+    options = (
+        click.option(
+            "--teach",
+            "teaching",
+            is_flag=True,
+            help="Prove again with every taught point, tool, frame and kept number moved alike in both.",
+        ),
+        click.option("--seed", type=int, metavar="N", help=f"Draw the amounts of --teach anew (usually {_SEED})."),
+        click.option(
+            "--teach-mm",
+            type=float,
+            metavar="MM",
+            help="How far --teach moves at most; turns in proportion (usually 5).",
+        ),
+    )
+    decorated: Any = with_seed
+    for option in reversed(options):
+        decorated = option(decorated)
+    return cast(Decorated, decorated)
+
+
 def status_of(result: ProofResult) -> int:
     """Exit status: 0 only for equal programs."""
     return _STATUS[result.verdict]
 
 
-__all__ = ["accepting", "exploring", "status_of"]
+__all__ = ["accepting", "exploring", "status_of", "teaching"]

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from rpl import ir
+from rpl.passes.typewords import type_word
 
 _PATH = re.compile(r"(?:(?P<module>\w+)\.)?(?P<name>\w+)(?:\[(?P<element>\d+)\])?")
 
@@ -92,11 +93,11 @@ def _expression(value: object, type: ir.Type, old: ir.Expression | None) -> ir.E
         case str(), ir.StringType():
             return ir.TextLiteral(value)
         case dict(), ir.PoseType() | ir.TargetType():
-            return _place(value, old)
+            return _place(value, type, old)
     return None
 
 
-def _place(components: dict[str, object], old: ir.Expression | None) -> ir.Expression | None:
+def _place(components: dict[str, object], type: ir.Type, old: ir.Expression | None) -> ir.Expression | None:
     """A place by its components; those that are not given are as they were, or zero."""
     named = old.entries if isinstance(old, ir.Aggregate) else ()
     parts: dict[str, ir.Expression] = {name: ir.RealLiteral(0.0) for name in ir.POSE}
@@ -105,4 +106,4 @@ def _place(components: dict[str, object], old: ir.Expression | None) -> ir.Expre
         if name.lower() not in parts or isinstance(value, bool) or not isinstance(value, int | float):
             return None
         parts[name.lower()] = ir.RealLiteral(float(value))
-    return ir.Aggregate(tuple(parts.items()))
+    return ir.Aggregate(tuple(parts.items()), type_name=type_word(type))

@@ -22,6 +22,7 @@ from rpl.proof.tolerance import Accepted
 from rpl.source import read_bytes
 
 if TYPE_CHECKING:
+    from rpl.proof.teaching.outcome import Retaught
     from rpl.proof.verdict import ProofResult
     from rpl.proof.wiring import Named
     from rpl.source import Source
@@ -38,7 +39,8 @@ class Question:
     """What a proof was asked: paths of both programs, of the cell and of files that describe arms or controllers, else
     names; accepted deviations; limits of the runs (None: the usual ones). Where B is a translation of A: `signals`,
     which of A's signals have which numbers in it, `names`, what A's variables are called in it, and `approximations`
-    that it was written with, by code; these are left out of the document where there are none."""
+    that it was written with, by code, `taught`, which of B's taught data it made of which of A's (pairs.Given); these
+    are left out of the document where there are none. `teach`: the seed of --teach, `teach_mm` how far it moves."""
 
     a: str
     b: str
@@ -61,6 +63,9 @@ class Question:
     signals: tuple[Named, ...] = ()
     names: tuple[tuple[str, str], ...] = ()
     approximations: tuple[tuple[str, int], ...] = ()
+    teach: int | None = None
+    teach_mm: float | None = None
+    taught: tuple[tuple[str, str], ...] = ()
 
     @property
     def accepted(self) -> Accepted:
@@ -68,7 +73,8 @@ class Question:
 
 
 PATHS = ("a", "b", "cell")
-OPTIONAL = ("signals", "names", "approximations")
+OPTIONAL = ("signals", "names", "approximations", "taught")
+OPTIONAL_NUMBERS = ("teach", "teach_mm")
 FILES_OR_NAMES = ("robot", "to_robot", "controller")
 
 
@@ -80,6 +86,9 @@ def certificate(
     for name in OPTIONAL:
         if asked.pop(name):
             asked[name] = [list(one) for one in getattr(question, name)]
+    for name in OPTIONAL_NUMBERS:
+        if asked[name] is None:
+            del asked[name]
     for name in (*PATHS, *FILES_OR_NAMES):
         value = getattr(question, name)
         if value is not None and (name in PATHS or _is_file(value)):
@@ -146,7 +155,8 @@ def _programs(document: Mapping[str, object], name: str) -> list[dict[str, str]]
 
 def _outcome(result: ProofResult, beside: Path) -> dict[str, object]:
     """What is compared when the proof is made again: words, counts and amounts."""
-    return {
+    taught = {"taught": _taught(result.taught, beside)} if result.taught is not None else {}
+    return taught | {
         "level": result.level,
         "reason": result.reason,
         "difference": result.difference.explanation if result.difference is not None else "",
@@ -173,6 +183,19 @@ def _reach(result: ProofResult, beside: Path) -> dict[str, object]:
                 "unreached": [row | {"file": _from(beside, str(row["file"]))} for row in rows]
             }
     return found
+
+
+def _taught(taught: Retaught, beside: Path) -> dict[str, object]:
+    """As the verdict has it, with the paths of its files from there."""
+
+    def from_there(row: dict[str, object]) -> dict[str, object]:
+        return row | {"file": _from(beside, str(row["file"]))}
+
+    rows = [
+        from_there(one.as_json()) | {"copies": [from_there(copy.as_json()) for copy in one.copies], "reason": ""}
+        for one in taught.outcomes
+    ]
+    return taught.as_json() | {"data": rows}
 
 
 def _same(then: object, now: object) -> bool:
@@ -238,6 +261,7 @@ __all__ = [
     "FILES_OR_NAMES",
     "FORMAT",
     "OPTIONAL",
+    "OPTIONAL_NUMBERS",
     "PATHS",
     "Question",
     "as_bytes",

@@ -14,7 +14,15 @@ from typing import Any
 
 from rpl.errors import UsageError
 from rpl.ir import SIGNAL_KINDS
-from rpl.proof.certificate import FILES_OR_NAMES, FORMAT, OPTIONAL, PATHS, Question, looks_like_file
+from rpl.proof.certificate import (
+    FILES_OR_NAMES,
+    FORMAT,
+    OPTIONAL,
+    OPTIONAL_NUMBERS,
+    PATHS,
+    Question,
+    looks_like_file,
+)
 from rpl.proof.tolerance import accepted_kinds
 from rpl.proof.verdict import VERDICTS
 from rpl.source import read_bytes
@@ -135,7 +143,7 @@ class _Reader:
             self._needs(f"programs.{side}", files, len({one["path"] for one in files}) == len(files), "each file once")
 
     def _question(self, asked: dict[str, Any]) -> None:
-        known = {field.name for field in fields(Question)} - (set(OPTIONAL) - set(asked))
+        known = {field.name for field in fields(Question)} - ({*OPTIONAL, *OPTIONAL_NUMBERS} - set(asked))
         self._keys("the certificate's question", asked, known)
         for name in _TEXTS + _TEXTS_OR_NULL:
             value = asked[name]
@@ -160,6 +168,13 @@ class _Reader:
             raise self.wrong("question.accept", str(error)) from None
         self._rows("signals", asked, _is_signal, "a name, the kind of a signal, its number and the last one of a group")
         self._rows("names", asked, _is_pair, "two names")
+        seed, most = asked.get("teach"), asked.get("teach_mm")
+        self._needs(
+            "question.teach", seed, seed is None or (_is_number(seed) and isinstance(seed, int)), "a whole number"
+        )
+        fits = most is None or (_is_number(most) and most >= 0)
+        self._needs("question.teach_mm", most, fits, "a number from 0 on")
+        self._rows("taught", asked, _is_pair, "two names")
         self._rows("approximations", asked, _is_approximation, "a code and how often")
 
     def _rows(self, name: str, asked: dict[str, Any], holds: Callable[[Any], bool], what: str) -> None:

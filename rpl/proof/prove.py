@@ -10,8 +10,8 @@ reader and our writer of one language share a misunderstanding, both runs share 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rpl import ir
@@ -25,6 +25,7 @@ from rpl.proof.reach import reach_of
 from rpl.proof.record import Record
 from rpl.proof.recording import record_of
 from rpl.proof.stops import with_written_stop
+from rpl.proof.teaching.retaught import Runs, Teaching, retaught
 from rpl.proof.tolerance import Accepted, Tolerance
 from rpl.proof.verdict import Explored, ProofResult
 from rpl.proof.watched import Side, side_of
@@ -54,19 +55,23 @@ def prove_programs(
     controller: str | MotionModel = PLAIN_NAME,
     budget: Budget | None = None,
     kept: Mapping[str, str] | None = None,
+    teaching: Teaching | None = None,
 ) -> ProofResult:
     """Run two normalised programs and compare them. `robot_b` None: the same arm as A's. `controller` drives
     both.
 
     `accepted`: what may deviate and is equal still. `budget`: explore, which finds further cells in which the programs
     go other ways, and compare the programs in these too. `kept`: B's names of data that the controller keeps, by A's
-    (wiring.kept_names). Raises UsageError for an unknown robot or an entry that cannot
-    be found.
+    (wiring.kept_names). `teaching`: prove again with taught data moved. Raises UsageError for an unknown robot or an
+    entry that cannot be found.
     """
     first, second = _model(robot_a), _model(robot_b)
     if second is None:
         second = first
     to_entry = to_entry if to_entry is not None else entry
+
+    how = _Driven((first, second), (entry, to_entry), limits, controller, accepted)
+    programs = (program_a, program_b)
 
     def proved(cell: Cell | None, limits: Limits, other: Cell | None = None) -> ProofResult:
         record_a = recorded_run(program_a, first, cell, entry, limits, controller)
@@ -84,16 +89,11 @@ def prove_programs(
         )
 
     result = proved(cell, limits)
+    if teaching is not None:
+        result = retaught(result, how.runs(programs, (cell, _theirs(cell, *programs, kept))), teaching)
     if budget is None or result.difference is not None:
         return result
-
-    def words(cell: Cell) -> Cell:
-        return in_words_of(cell, program_a, program_b, kept)
-
-    sides = (
-        side_of(program_a, first, entry, limits, controller),
-        side_of(program_b, second, to_entry, limits, controller, words, turned(kept or {})),
-    )
+    sides = how.sides(programs, kept or {})
     found = explore(sides, cell, budget)
     shorter = replace(limits, time_s=min(limits.time_s, found.time_s))
     cells = tuple(zip(found.cells, found.others, strict=True))
@@ -124,10 +124,52 @@ def prove_against(
     kept: Mapping[str, str] | None = None,
 ) -> ProofResult:
     """Run B and compare it with a run of A that was recorded before, for who compares A with several programs."""
-    theirs = in_words_of(cell, program_a, program_b, kept) if cell is not None else None
-    theirs = with_ranges_said(theirs, program_a, program_b)
+    theirs = _theirs(cell, program_a, program_b, kept)
     record_b = recorded_run(program_b, robot_b, theirs, to_entry, limits, controller)
     return prove_recorded(record_a, record_b, program_a, program_b, to_entry=to_entry, accepted=accepted)
+
+
+def _theirs(
+    cell: Cell | None, program_a: ir.Program, program_b: ir.Program, kept: Mapping[str, str] | None
+) -> Cell | None:
+    """The cell as B has it."""
+    theirs = in_words_of(cell, program_a, program_b, kept) if cell is not None else None
+    return with_ranges_said(theirs, program_a, program_b)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Driven:
+    """How both programs are run and compared, for who runs them several times; of pairs the first is A's."""
+
+    robots: tuple[RobotModel | None, RobotModel | None]
+    entries: tuple[str | None, str | None]
+    limits: Limits
+    controller: str | MotionModel
+    accepted: Accepted
+
+    def runs(self, programs: tuple[ir.Program, ir.Program], cells: tuple[Cell | None, Cell | None]) -> Runs:
+        """The runs of these programs, or of others with the same statements."""
+
+        def run(side: int) -> Callable[[ir.Program, Cell | None], Record]:
+            robot, entry = self.robots[side], self.entries[side]
+            return lambda program, cell: recorded_run(program, robot, cell, entry, self.limits, self.controller)
+
+        def compared(a: Record, b: Record, first: ir.Program, second: ir.Program) -> ProofResult:
+            return prove_recorded(a, b, first, second, to_entry=self.entries[1], accepted=self.accepted)
+
+        return Runs(*programs, *self.robots, *cells, run(0), run(1), compared)
+
+    def sides(self, programs: tuple[ir.Program, ir.Program], kept: Mapping[str, str]) -> tuple[Side, Side]:
+        """The sides of an exploration; the second one has the cell in its own words."""
+
+        def words(cell: Cell) -> Cell:
+            return in_words_of(cell, *programs, kept)
+
+        how = (self.limits, self.controller)
+        return (
+            side_of(programs[0], self.robots[0], self.entries[0], *how),
+            side_of(programs[1], self.robots[1], self.entries[1], *how, words, turned(kept)),
+        )
 
 
 def prove_recorded(

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from rpl.proof.deviations import Deviation, Measure, measures
 from rpl.proof.difference import Difference
 from rpl.proof.reach import Reach
 from rpl.proof.tolerance import Accepted, Tolerance
 from rpl.showing import folded, heading, line
+
+if TYPE_CHECKING:
+    from rpl.proof.teaching.outcome import Retaught
 
 EQUAL, ALIKE, DIFFERENT, UNDECIDED = "equal", "alike", "different", "undecided"
 VERDICTS = (EQUAL, ALIKE, DIFFERENT, UNDECIDED)
@@ -56,7 +60,7 @@ class ProofResult:
     leave nothing out. `reach_a`, `reach_b`: which statements the runs came to; `explored`: in how many cells besides
     the user's own, where that was asked. `approximations`: codes of what a translation has written in another way on
     purpose, and how often, as far as nobody accepts them; with one of them nothing is equal. `notes`: what the reader
-    of the verdict should know besides.
+    of the verdict should know besides. `taught`: what re-teaching showed, where that was asked.
     """
 
     level: str
@@ -73,6 +77,7 @@ class ProofResult:
     reach_b: Reach | None = None
     explored: Explored | None = None
     approximations: tuple[tuple[str, int], ...] = ()
+    taught: Retaught | None = None
 
     @cached_property
     def accepted(self) -> tuple[Measure, ...]:
@@ -87,11 +92,12 @@ class ProofResult:
     @property
     def verdict(self) -> str:
         """One of VERDICTS."""
-        if self.difference is not None:
+        if self.difference is not None or (self.taught is not None and self.taught.fails):
             return DIFFERENT
         if self.reason:
             return UNDECIDED
-        return ALIKE if self.open or self.approximations else EQUAL
+        untaught = self.taught is not None and not self.taught.holds
+        return ALIKE if self.open or self.approximations or untaught else EQUAL
 
     @property
     def equal(self) -> bool:
@@ -117,6 +123,7 @@ class ProofResult:
             "max_time_s": round(self.max_time_s, 6),
             "reach": self._reach_as_json(),
             "notes": list(self.notes),
+            "taught": self.taught.as_json() if self.taught is not None else None,
         }
 
     def __repr__(self) -> str:
@@ -147,12 +154,15 @@ class ProofResult:
         if self.approximations:
             codes = ", ".join(f"{name} ({count})" for name, count in self.approximations)
             told.append(f"written with approximations: {codes}")
+        if self.taught is not None and not self.taught.holds:
+            told.append(f"re-taught, {self.taught.headline()}")
         deviating = ", ".join(told)
         accepted = ", ".join(one.as_text() for one in self.accepted)
         beside = f"; accepted: {accepted}" if accepted else ""
         match self.verdict:
             case "different":
-                assert self.difference is not None  # that is what makes it different
+                if self.difference is None:
+                    return f"different: {deviating}"
                 return f"different: {self.difference.explanation}"
             case "undecided":
                 return f"undecided: {self.reason}" + (f"; {deviating}" if deviating else "") + beside
@@ -174,6 +184,8 @@ class ProofResult:
         lines += [told for side, one in (("A", self.reach_a), ("B", self.reach_b)) for told in _reach_lines(side, one)]
         if self.explored is not None:
             lines.append(self.explored.as_text())
+        if self.taught is not None:
+            lines += self.taught.as_text().splitlines()
         return "\n".join((*lines, *(f"note: {note}" for note in self.notes if note != self.reason)))
 
 
