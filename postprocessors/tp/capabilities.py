@@ -165,6 +165,7 @@ CAPABILITIES = Capabilities(
             "JointsType": tables.PR,
             "ClockType": tables.TIMER,
         },
+        own=frozenset(bank for bank, _ in tables.SELECTED.values()),
         points=tables.POINTS,
     ),
 )

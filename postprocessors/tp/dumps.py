@@ -1,6 +1,7 @@
-"""Values of registers and frames before the start, as the variable dumps (`.VA`) that a controller saves and loads.
+"""Values of registers and frames before the start, as the variable dumps (`.VA`) that a controller saves.
 
-Programs that were read together with dumps have such values; a program of another language sets its registers itself.
+Programs that were read together with dumps have such values. A program of another language sets its registers itself;
+its constant tools and frames stand here, by the numbers that the listings select.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from rpl.writing.text import number_text
 from . import tables
 from .configuration import config_text
 from .expressions import constant
-from .positions import position_of
+from .frames import Frames
+from .positions import Position, position_of
 from .texts import comment, register_comment
 
 Names = Mapping[tuple[str, int], str]
@@ -26,8 +28,9 @@ _ACTIVE = {"UFRAME_NUM": ("$MNUFRAMENUM", 0), "UTOOL_NUM": ("$MNUTOOLNUM", 1)}
 _BANKS = {"R": "NUMREG", "SR": "STRREG", "PR": "POSREG"}
 
 
-def dump_files(program: ir.Program, names: Names) -> list[OutputFile]:
-    """The dumps that a program needs; none when everything begins as on a controller without any values."""
+def dump_files(program: ir.Program, names: Names, frames: Frames) -> list[OutputFile]:
+    """The dumps that a program needs; none when everything begins as on a controller without any values. `frames`: the
+    constant tools and frames that its listings select."""
     scopes = ProgramScope(program)
     values: dict[str, dict[int, ir.Expression]] = {"R": {}, "SR": {}, "PR": {}, "UFRAME": {}, "UTOOL": {}}
     active: dict[str, int] = {}
@@ -37,10 +40,17 @@ def dump_files(program: ir.Program, names: Names) -> list[OutputFile]:
             if isinstance(declaration, ir.Variable) and declaration.initial is not None:
                 _note(declaration, declaration.initial, values, active)
                 scope = scope or scopes.module(module)
+    given = frames.chosen_values()
     if scope is None:
-        return []
+        if not given:
+            return []
+        scope = scopes.module(program.modules[0])
     made = [_numbers(values["R"], names), _texts(values["SR"], names), _positions(values["PR"], names, scope)]
-    made.append(_frames(values["UFRAME"], values["UTOOL"], active, scope))
+    tables_of = {
+        bank: {**_given(values[bank], scope), **{n: one for (word, n), one in given.items() if word == bank}}
+        for bank in ("UFRAME", "UTOOL")
+    }
+    made.append(_frames(tables_of, active))
     return [file for file in made if file is not None]
 
 
@@ -99,31 +109,37 @@ def _positions(values: Mapping[int, ir.Expression], names: Names, scope: Scope) 
     return _file("POSREG", lines) if len(lines) > 1 else None
 
 
-def _frames(
-    frames: Mapping[int, ir.Expression], tools: Mapping[int, ir.Expression], active: Mapping[str, int], scope: Scope
-) -> OutputFile | None:
+def _given(values: Mapping[int, ir.Expression], scope: Scope) -> dict[int, Position]:
+    """The frames that are none of nothing."""
+    found: dict[int, Position] = {}
+    for number, value in values.items():
+        try:
+            position = position_of(value, scope)
+        except CannotSayError:
+            continue
+        if number > 0 and any(position.values):
+            found[number] = position
+    return found
+
+
+def _frames(given: Mapping[str, Mapping[int, Position]], active: Mapping[str, int]) -> OutputFile | None:
     lines: list[str] = []
-    for name, values, last in (("$MNUFRAME", frames, 9), ("$MNUTOOL", tools, 10)):
-        kept = {number: value for number, value in values.items() if number > 0 and not _is_zero(value, scope)}
-        if kept:
+    for name, bank, last in (("$MNUFRAME", "UFRAME", 9), ("$MNUTOOL", "UTOOL", 10)):
+        if given[bank]:
             lines.append(f"[*SYSTEM*]{name}  Storage: SHADOW  Access: RW  : ARRAY[1,{last}] OF POSITION")
-        for number, value in sorted(kept.items()):
-            lines.extend((f"     [1,{number}] =", *_position(value, scope)))
+        for number, position in sorted(given[bank].items()):
+            lines.extend((f"     [1,{number}] =", *_shown(position)))
     for name, number in active.items():
         lines.append(f"[*SYSTEM*]{_ACTIVE[name][0]}  Storage: SHADOW  Access: RW  : ARRAY[8] OF BYTE")
         lines.append(f"     [1] = {number}")
     return _file("SYSFRAME", lines) if lines else None
 
 
-def _is_zero(value: ir.Expression, scope: Scope) -> bool:
-    try:
-        return not any(position_of(value, scope).values)
-    except CannotSayError:
-        return True
-
-
 def _position(value: ir.Expression, scope: Scope) -> Iterator[str]:
-    position = position_of(value, scope)
+    return _shown(position_of(value, scope))
+
+
+def _shown(position: Position) -> Iterator[str]:
     if position.kind == "joints":
         yield "  Group: 1"
         shown = [f"  J{number} = {_value(one)} deg" for number, one in enumerate(position.values, 1)]

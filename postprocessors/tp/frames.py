@@ -1,12 +1,13 @@
 """Tools and user frames: which number a value has, and the lines that give the number its value.
 
-A constant value is put into its number once, at the start of the program, through a position register that is filled
-element by element. A value that is kept in a position register is handed over where it is selected.
+Constant values stand in the controller's tables (the dump SYSFRAME.VA), not in programs. A value that is kept in a
+position register is handed over where it is selected.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from rpl import ir
@@ -17,7 +18,6 @@ from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import pose_of
 from rpl.source import NOWHERE
 from rpl.writing.statements import CannotSayError
-from rpl.writing.text import number_text
 
 from . import tables
 from .expressions import Expressions
@@ -33,14 +33,17 @@ class Numbers:
 
     word: str
     most: int
-    constants: dict[tuple[float, ...], int] = field(default_factory=dict)
+    constants: dict[int, tuple[float, ...]] = field(default_factory=dict)
     registers: dict[str, int] = field(default_factory=dict)
-    taken: set[int] = field(default_factory=set)
+    own: set[int] = field(default_factory=set)  # those whose values the writer puts into the controller's table
 
     def of_constant(self, value: tuple[float, ...]) -> int:
-        if value not in self.constants:
-            self.constants[value] = self._free()
-        return self.constants[value]
+        number = next((number for number, known in self.constants.items() if known == value), None)
+        if number is None:
+            number = self._free()
+            self.constants[number] = value
+            self.own.add(number)
+        return number
 
     def of_register(self, register: str) -> int:
         if register not in self.registers:
@@ -48,14 +51,11 @@ class Numbers:
         return self.registers[register]
 
     def _free(self) -> int:
-        free = next((n for n in range(1, self.most + 1) if n not in self.taken), None)
+        taken = {*self.constants, *self.registers.values()}
+        free = next((n for n in range(1, self.most + 1) if n not in taken), None)
         if free is None:
             raise CannotSayError(f"there are only {self.most} numbers for {self.word}")
-        self.taken.add(free)
         return free
-
-    def value_of(self, number: int) -> tuple[float, ...] | None:
-        return next((value for value, n in self.constants.items() if n == number), None)
 
 
 @dataclass(slots=True)
@@ -74,7 +74,7 @@ class Frames:
 
     def select(self, kind: str, value: ir.Expression, expressions: Expressions) -> tuple[list[Line], str]:
         """The lines that select a tool or frame, and its number ('' when it is computed)."""
-        numbers = self.tools if kind == "UTOOL" else self.frames
+        numbers = self._numbers(kind)
         table = _table_element(value, kind)
         if table is not None:
             return self._line(numbers, _number_text(table, expressions)), _number_text(table, expressions)
@@ -97,7 +97,7 @@ class Frames:
 
     def apart(self, kind: str, register: str) -> tuple[list[Line], str]:
         """The lines that select what a position register holds now under a number that no move has."""
-        numbers = self.tools if kind == "UTOOL" else self.frames
+        numbers = self._numbers(kind)
         number = str(numbers.of_register(f"{register} seen"))
         return [Line(f"  {kind}[{number}]={register}"), Line(f"  {kind}_NUM={number}")], number
 
@@ -122,27 +122,39 @@ class Frames:
         """The constant value behind a number."""
         if word == "UFRAME" and number == "0":
             return WORLD
-        numbers = self.tools if word == "UTOOL" else self.frames
-        found = numbers.value_of(int(number)) if number.isdigit() else None
+        numbers = self._numbers(word)
+        found = numbers.constants.get(int(number)) if number.isdigit() else None
         if found is None:
             holder = next((name for name, given in numbers.registers.items() if str(given) == number), "")
             digits = holder[3:-1].partition(":")[0]
             found = self.kept.get(int(digits)) if digits.isdigit() else None
         return found
 
-    def setup(self) -> Iterator[Line]:
-        """What gives the numbers their constant values at the start."""
-        for numbers in (self.tools, self.frames):
-            for value, number in numbers.constants.items():
-                yield from self._filled(value)
-                yield Line(f"  {numbers.word}[{number}]=PR[{self.scratch}]")
+    def chosen_values(self) -> dict[tuple[str, int], Position]:
+        """What the numbers stand for that the writer has given, and a number of nothing that is selected."""
+        return {
+            (numbers.word, number): Position("pose", value)
+            for numbers in (self.tools, self.frames)
+            for number, value in numbers.constants.items()
+            if number in numbers.own
+        }
 
-    def _filled(self, value: tuple[float, ...]) -> Iterator[Line]:
-        x, y, z, a, b, c = value
-        yield Line(f"  PR[{self.scratch}]=LPOS")
-        for element, number in enumerate((x, y, z, c, b, a), 1):
-            shown = number_text(number, 6, tables.NUMBERS)
-            yield Line(f"  PR[{self.scratch},{element}]={f'({shown})' if shown.startswith('-') else shown}")
+    def declared(self, declaration: ir.Declaration, scope: Scope) -> None:
+        """Take over the numbers of frames with values that the program declares."""
+        match declaration:
+            case ir.Variable(
+                name="UTOOL" | "UFRAME" as word, type=ir.ArrayType(base=first), initial=ir.Aggregate(entries=entries)
+            ):
+                for number, (_, value) in enumerate(entries, first):
+                    with suppress(CannotSayError):  # it stands on the controller only
+                        self._numbers(word).constants[number] = constant_pose(value, scope)
+            case ir.Initialise(assign=ir.Assign(target=ir.Index(base=ir.Name(id=word), indices=(index,)), value=value)):
+                if word in ("UTOOL", "UFRAME") and isinstance(index, ir.IntLiteral):
+                    self._numbers(word).constants[index.value] = constant_pose(value, scope)
+                    self._numbers(word).own.add(index.value)
+
+    def _numbers(self, word: str) -> Numbers:
+        return self.tools if word == "UTOOL" else self.frames
 
 
 def constant_pose(value: ir.Expression, scope: Scope) -> tuple[float, ...]:

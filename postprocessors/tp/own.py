@@ -167,8 +167,16 @@ def selects_frame(node: object) -> bool:
         case ir.Assign(target=ir.System(name=name)):
             return name in _TABLES
         case ir.Move(tool=tool, frame=frame):
-            return tool is not None or frame is not None
+            return any(one is not None and not number_in_force(one) for one in (tool, frame))
     return False
+
+
+def number_in_force(place: ir.Expression) -> str:
+    """The number that a move says is in force (`frame_numbers`), as an element of the controller's table."""
+    match place:
+        case ir.Index(base=ir.Name(id="UTOOL" | "UFRAME"), indices=(ir.IntLiteral(value=number),)):
+            return str(number)
+    return ""
 
 
 def steps_in(body: ir.Body) -> set[str]:

@@ -20,7 +20,7 @@ from .frames import Frames
 from .idioms import Idioms
 from .lines import Line, pulse_length
 from .motion import Motion
-from .own import from_listing, is_own_limit, modal_condition, selects_frame
+from .own import from_listing, is_own_limit, modal_condition, number_in_force, selects_frame
 from .positions import Points
 from .texts import ascii_text, number, remarks
 
@@ -463,11 +463,16 @@ class Printer(StatementPrinter[Line]):
                 self.ledger.merged(trigger)
 
     def own_frames(self, move: ir.Move) -> None:
-        """Tool and frame that the move names itself, where they are not in force already."""
+        """Tool and frame that the move names itself, where they are not in force already; a number is."""
         for name, value in (("base", move.frame), ("tool", move.tool)):
             if value is None:
                 continue
             kind = "UTOOL" if name == "tool" else "UFRAME"
+            if known := number_in_force(value):
+                self.frames.selected[kind].add(known)
+                self.motion.tool = known if kind == "UTOOL" else self.motion.tool
+                self.motion.frame = known if kind == "UFRAME" else self.motion.frame
+                continue
             _, chosen = self.frames.select(kind, value, self.expressions)
             in_force = self.motion.tool if kind == "UTOOL" else self.motion.frame
             if not chosen.isdigit() or chosen != in_force:

@@ -84,7 +84,7 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     beside = _beside(listings)
     say = macros_of(__package__, context.templates)
     written = (_file(listing, writer.frames, listing.name in beside, say) for listing in listings)
-    return [*written, *dump_files(program, writer.names)]
+    return [*written, *dump_files(program, writer.names, writer.frames)]
 
 
 class _Writer:
@@ -99,6 +99,9 @@ class _Writer:
             moved_to=moved_to_only(program),
             free=free_numbers(program, self.names, tables.R),
         )
+        for module in program.modules:
+            for one in module.declarations:
+                self.frames.declared(one, self.scopes.module(module))
         self.entries = _entries(program)
         self.monitors = monitors_of(program)
         self.quiet, self.steady = quiet_routines(program)
@@ -125,6 +128,9 @@ class _Writer:
         match declaration:
             case ir.Variable(name=name) if _is_bank(name):
                 self.ledger.merged(declaration)
+                return []
+            case ir.Initialise(assign=ir.Assign(target=ir.Index(base=ir.Name(id="UTOOL" | "UFRAME")))):
+                self.ledger.merged(declaration)  # it stands in the dump of frames
                 return []
             case ir.Initialise(assign=assign):
                 self.start.append((assign, self.scopes.module(module)))
@@ -228,7 +234,7 @@ class _Writer:
             if listing.entry:
                 head = next((at for at, line in enumerate(listing.lines) if not line.first.startswith("  !")), 0)
                 selected, first = self.standard_frames(listing, listings), self.first_values(listing)
-                listing.lines[head:head] = [*first, *self.frames.setup(), *selected, *begin]
+                listing.lines[head:head] = [*first, *selected, *begin]
             robot = self.context.robot
             if robot is not None and listing.name not in self.from_listings:
                 for reached, reason in choose_postures(listing.points, self.frames, robot):
@@ -287,16 +293,33 @@ def _place(routine: ir.Routine) -> Origin:
 
 def _moves_before(listing: Listing, listings: list[Listing], word: str) -> bool:
     """Does the program move or look where the robot is, itself or by a call, before it selects such a number?"""
-    moving = {one.name for one in listings if any(map(_needs_frames, one.lines))}
-    calls = {one.name: {_called(line) for line in one.lines} for one in listings}
-    while more := {name for name, called in calls.items() if name not in moving and called & (moving | {_COMPUTED})}:
-        moving |= more
-    for line in listing.lines:
-        if line.first.startswith(f"  {word}_NUM="):
-            return False
-        if _needs_frames(line) or _called(line) in moving | {_COMPUTED}:
+    named = {one.name: one for one in listings}
+    asked: set[str] = set()
+
+    def moves(name: str) -> bool | None:
+        """None: it neither moves nor selects."""
+        if name == _COMPUTED:
             return True
-    return False
+        if name in asked or name not in named:
+            return None
+        asked.add(name)
+        certain = True  # no line before may have jumped over this one
+        for line in named[name].lines:
+            certain = certain and not _branches(line)
+            if line.first.startswith(f"  {word}_NUM=") and (certain or name == listing.name):
+                return False
+            if _needs_frames(line):
+                return True
+            found = moves(_called(line)) if "CALL " in line.first else None
+            if found or (found is False and certain):
+                return found
+        return None
+
+    return bool(moves(listing.name))
+
+
+def _branches(line: Line) -> bool:
+    return line.first.lstrip().startswith(("IF ", "SELECT ", "JMP ", "LBL[", "FOR ")) or "LBL[" in line.first
 
 
 def _called(line: Line) -> str:

@@ -146,22 +146,18 @@ def test_names_of_registers_are_comments() -> None:
     assert lines("R[1] = PR[3].x", names) == ["R[1:number of boxes]=PR[3,1:spotx]"]
 
 
-def test_constant_tools_and_frames_are_set_up_at_the_start() -> None:
+def test_constant_tools_and_frames_are_numbers() -> None:
     found = lines(
         "$tool = {x: 0, y: 0, z: 120, a: 0, b: 0, c: 0}\n$base = $null_frame\nMOVE TO P2 JOINT SPEED 50 %\n"
         "$tool = {x: 0, y: 0, z: 120, a: 0, b: 0, c: 0}",
         entry="p",
     )
-    assert found == [
-        *("PR[100]=LPOS", "PR[100,1]=0", "PR[100,2]=0", "PR[100,3]=120", "PR[100,4]=0", "PR[100,5]=0", "PR[100,6]=0"),
-        *("UTOOL[1]=PR[100]", "UTOOL_NUM=1", "UFRAME_NUM=0", "J P[2] 50% FINE", "UTOOL_NUM=1"),
-    ]
+    assert found == ["UTOOL_NUM=1", "UFRAME_NUM=0", "J P[2] 50% FINE", "UTOOL_NUM=1"]
 
 
 def test_a_program_that_is_started_selects_world_and_flange_before_it_moves() -> None:
     found = lines("R[1] = 1.0\nMOVE TO P2 JOINT SPEED 50 %", entry="p")
-    assert found[0] == "PR[100]=LPOS"
-    assert found[7:] == ["UTOOL[1]=PR[100]", "UFRAME_NUM=0", "UTOOL_NUM=1", "R[1]=1", "J P[2] 50% FINE"]
+    assert found == ["UFRAME_NUM=0", "UTOOL_NUM=1", "R[1]=1", "J P[2] 50% FINE"]
     found = lines("$base = PR[4]\n$tool = PR[5]\nMOVE TO P2 JOINT SPEED 50 %", entry="p")
     assert "UFRAME_NUM=0" not in found
 

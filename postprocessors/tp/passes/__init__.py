@@ -7,6 +7,7 @@ from rpl.passes.legalise.stages import Placed
 from .arguments import arguments_in_registers
 from .components import read_components
 from .composition import compositions
+from .framenumbers import frame_numbers
 from .longlogic import long_logic
 from .resetclocks import stopped_resets
 from .shown import values_beside_messages
@@ -14,6 +15,7 @@ from .shown import values_beside_messages
 PASSES: tuple[Placed, ...] = (
     Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
+    Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(compositions, "records", behind="drop_unread_parameters"),
     Placed(read_components, "control", behind="fit_loops"),
     Placed(arguments_in_registers, "control", behind="fit_loops"),

@@ -38,6 +38,9 @@ class Storage:
     banks: Mapping[str, Bank] = field(default_factory=dict)
     """Where variables of a type (class name) are kept, when they have numbers and no names; types may share a bank."""
 
+    own: frozenset[str] = frozenset()
+    """Arrays of the controller's own (frames by number), which keep their names."""
+
     points: Bank | None = None
     """Taught points that live in a routine."""
 

@@ -163,7 +163,7 @@ class _Numbered(Rewriter):
         self, found: list[Wanted], declaration: ir.Variable, scope: Scope, key: str, aliases: tuple[str, ...]
     ) -> None:
         """Note what numbers a declaration needs; none for constants, points and the arguments of calls."""
-        if declaration.name == ARGUMENTS:
+        if declaration.name == ARGUMENTS or declaration.name in self.context.capabilities.storage.own:
             return
         type = scope.resolve(declaration.type)
         element = scope.resolve(type.element) if isinstance(type, ir.ArrayType) else type
