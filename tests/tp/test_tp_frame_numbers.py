@@ -6,6 +6,7 @@ from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
 from rpl.source import source_from_text
 from rpl.translation import translate_program
+from rpl.writing.namemap import NameMap
 from tests.tp.tp_translating_helpers import same_in_tp
 
 RAPID = """MODULE cell
@@ -55,7 +56,9 @@ def test_the_values_stand_in_the_dump_of_frames() -> None:
     assert "[1,3]" in dump and "Y:    20.000" in dump and "Z:   120.000" in dump
     assert {written.registers[one] for one in (("UFRAME", 1), ("UFRAME", 3))} == {"wobjBelt", "wobj3"}
     assert written.registers["UTOOL", 1] == "tGrip"
-    kept = translate_program(read, "tp", "abb_irb1200_5_90", None, Diagnostics(), {("UTOOL", 4): "tGrip"})
+    kept = translate_program(
+        read, "tp", "abb_irb1200_5_90", None, Diagnostics(), NameMap(numbers={("UTOOL", 4): "tGrip"})
+    )
     assert kept.registers["UTOOL", 4] == "tGrip"
 
 
