@@ -32,26 +32,38 @@ _OTHER_COMMAND = re.compile(r"\brpl [a-z]+( --[a-z-]+)*")
 def told(items: Iterable[Diagnostic], verbose: bool = False, followed: frozenset[str] = frozenset()) -> Iterator[str]:
     """The reports as lines of text, the worst first, else in their order. `verbose`: each on a line of its own.
     `followed`: the options that were given (`--robot`)."""
-    ordered = sorted(items, key=lambda item: -item.severity)
     if verbose:
+        ordered = sorted(items, key=lambda item: -item.severity)
         yield from (_line(item, item.message, advised(item, followed)) for item in ordered)
         return
+    for kind in _kinds(items).values():
+        for group in _groups(kind):
+            yield _line(group.items[0], group.message(), _asked(group.advice(), followed)) + group.places()
+
+
+def sentences(items: Iterable[Diagnostic], followed: frozenset[str] = frozenset()) -> Iterator[tuple[Severity, str]]:
+    """What reports about one place say, without the place: one sentence for each kind, the worst first."""
+    for kind in _kinds(items).values():
+        for group in _groups(kind):
+            advice = _asked(group.advice(), followed)
+            yield kind[0].severity, group.message() + (f" ({advice})" if advice else "")
+
+
+def _kinds(items: Iterable[Diagnostic]) -> dict[tuple[Severity, str], list[Diagnostic]]:
     kinds: dict[tuple[Severity, str], list[Diagnostic]] = {}
-    for item in ordered:
+    for item in sorted(items, key=lambda item: -item.severity):
         kinds.setdefault((item.severity, item.code.name), []).append(item)
-    for kind in kinds.values():
-        yield from _lines_of(kind, followed)
+    return kinds
 
 
-def _lines_of(kind: Sequence[Diagnostic], followed: frozenset[str]) -> Iterator[str]:
-    """The lines of one kind."""
+def _groups(kind: Sequence[Diagnostic]) -> list[_Said]:
+    """The reports of one kind that share a line."""
     said = _Said(tuple(kind), _columns(kind))
-    groups = said.split()
     if kind[0].severity >= Severity.LOSS:
         single = said.by_words()
-        groups = single if len(single) <= _MOST_SINGLE else groups
-    for group in groups:
-        yield _line(group.items[0], group.message(), _asked(group.advice(), followed)) + group.places()
+        if len(single) <= _MOST_SINGLE:
+            return single
+    return said.split()
 
 
 @dataclass(frozen=True, slots=True)

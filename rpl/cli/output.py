@@ -84,13 +84,15 @@ def print_diagnostics(items: Iterable[Diagnostic], least: Severity = Severity.IN
     """Reports on stderr from this severity on: one line per kind, the worst first; with --verbose one line each."""
     context = click.get_current_context(silent=True)
     verbose = context is not None and bool(context.meta.get(_VERBOSE))
-    followed = _followed(context) if context is not None else frozenset()
-    for text in told((item for item in items if item.severity >= least), verbose, followed):
+    for text in told((item for item in items if item.severity >= least), verbose, followed_options()):
         click.echo(printable(" ".join(text.splitlines())), err=True)
 
 
-def _followed(context: click.Context) -> frozenset[str]:
+def followed_options() -> frozenset[str]:
     """The options that the user gave: nobody is told to give them. An arm is the target's too."""
+    context = click.get_current_context(silent=True)
+    if context is None:
+        return frozenset()
     given = {
         name
         for option in context.command.params

@@ -29,6 +29,7 @@ from rpl.cli.output import (
     waiting,
 )
 from rpl.cli.proofs import answer, certificate_option, keep
+from rpl.cli.sheets import sheet_can_be_written, sheet_option, write_sheet
 from rpl.cli.verdicts import accepting, exploring, status_of, teaching
 from rpl.diagnostics import Diagnostic, Diagnostics, Severity
 from rpl.errors import InternalError, UsageError
@@ -76,6 +77,7 @@ OK, NO, GUARDED = 0, 1, 3
     metavar="DIR",
     help="Own macros for how statements look, in DIR/<target>/*.j2 (`rpl templates` lists them).",
 )
+@sheet_option
 @click.option("--strict", is_flag=True, help="Take every approximation for an error.")
 @exploring
 @teaching
@@ -93,6 +95,7 @@ def command(
     chosen: Path | None,
     options: Sequence[str],
     templates: Path | None,
+    sheet: Path | None,
     strict: bool,
     accepted: Accepted,
     kept: Path | None,
@@ -114,6 +117,7 @@ def command(
     target = _target(target, own)
     robots_exist(*arms)
     _certifiable(kept, paths, output)
+    sheet_can_be_written(sheet)
     house, earlier = _house(templates, target), _earlier(chosen)
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
@@ -130,17 +134,16 @@ def command(
         return _refuse(read, diagnostics, as_json)
     proving = proving or _asks(about) or kept is not None
     written = _put(translation, target, output, (chosen, kept), proving, as_json)
-    proof = None
-    if proving:
-        about |= {"a": paths[0], "b": str(output), "language_a": dialect, "language_b": target}
-        asked = _question(accepted, diagnostics.items[before:], about)
-        proof = _prove(read, translation, asked, output, kept)
+    about |= {"a": paths[0], "b": str(output), "language_a": dialect, "language_b": target}
+    asked = _question(accepted, diagnostics.items[before:], about)
+    proof = _prove(read, translation, asked, output, kept) if proving else None
     ready = readiness(read, diagnostics, proof.verdict if proof is not None else "")
     if as_json:
         print_diagnostics(diagnostics)
         print_json(_document(translation, written, diagnostics, proof, ready))
     else:
         _print(translation, written, output, proof, ready, diagnostics)
+    write_sheet(sheet, read, translation, diagnostics, ready, proof, target, arms)
     proved = status_of(proof) if proof is not None else OK
     return proved if proved != OK or not diagnostics.has_losses else GUARDED
 
