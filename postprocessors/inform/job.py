@@ -6,6 +6,7 @@ Points without a posture stand first, before any RCONF, because nothing takes an
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
@@ -32,6 +33,7 @@ JOINT_ANGLE = code(
     "a controller counts the joints of a position in pulses: {reason}",
     "give pulses_per_degree in a robot file of your own; the program stops there with PAUSE",
 )
+_STEP = re.compile(r"(?:S?MOV[JLCS]|REFP|IMOV)\b[^=]*?\bC(\d{5})\b")
 _DATE = "2000/01/01 00:00"  # the same text for the same program
 
 
@@ -54,6 +56,7 @@ class Job:
     counting: bool = False  # the program calculates with joints: an arm without pulses gets a neutral scale
     lines: list[str] = field(default_factory=list)
     points: dict[Kept, int] = field(default_factory=dict)
+    further: dict[int, Kept] = field(default_factory=dict)  # points of later steps that go to the same place
     positions: set[int] = field(default_factory=set)  # position variables whose values the header gives
     comment: str = ""
     entry: bool = False
@@ -72,6 +75,31 @@ class Job:
                 raise CannotSayError("there are no more numbers for points")
             self.points[what] = number
         return f"C{self.points[what]:05d}"
+
+    def in_steps(self, lines: list[str]) -> list[str]:
+        """The lines with a point of its own for each step, as controllers keep them: editing a step on the pendant
+        changes its point. Where numbers run out the steps share one."""
+        places = {number: kept for kept, number in self.points.items()}
+        seen: set[int] = set()
+        done = []
+        for line in lines:
+            step = _STEP.match(line)
+            number = int(step[1]) if step is not None else None
+            if number in seen and number in places:
+                line = self.again(line, number, places[number], {*places, *self.further})
+            elif number is not None:
+                seen.add(number)
+            done.append(line)
+        return done
+
+    def again(self, line: str, number: int, kept: Kept, taken: set[int]) -> str:
+        """A step with another point at the same place, that of its external axes too."""
+        free = next((n for n in range(tables.POINTS.last + 1) if n not in taken), None)
+        if free is None:
+            return line
+        self.further[free] = kept
+        self.cell.stands(self.name, kept.name, f"C{free:05d}")
+        return re.sub(rf"\b([BE]?C){number:05d}\b", rf"\g<1>{free:05d}", line)
 
     def constant(self, position: Position, tool: int = 0, frame: int = 0, name: str = "") -> str:
         """A position variable that holds a constant."""
@@ -163,8 +191,9 @@ class Job:
         return "\r\n".join((*lines, ""))
 
     def header(self) -> list[str]:
-        rows = [("C", number, kept) for kept, number in self.points.items()]
-        for kept, number in self.points.items():
+        points = [(number, kept) for kept, number in self.points.items()] + list(self.further.items())
+        rows = [("C", number, kept) for number, kept in points]
+        for number, kept in points:
             axes, bases = kept.position.external, self.cell.bases
             for bank, values in (("BC", axes[:bases]), ("EC", axes[bases:])):
                 if values:

@@ -214,7 +214,7 @@ class _Writer:
                 printer.lines.extend(self.declaration(declaration))
         printer.body(routine.body, last=True)
         self.lost_parts(routine)
-        job.lines, job.entry = printer.lines, routine.name.lower() in self.entries
+        job.lines, job.entry = job.in_steps(printer.lines), routine.name.lower() in self.entries
         return job
 
     def printer(self, routine: ir.Routine, job: Job) -> Printer:

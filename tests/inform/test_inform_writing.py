@@ -213,8 +213,9 @@ def test_moves_and_points() -> None:
     assert lines == [
         *("SETTOOL TL#(1) P127", "MFRAME UF#(1) P127 P126 P125"),
         *("MOVJ C00001 VJ=50.00 PL=1", "MOVC C00002 V=200.0 CR=20.0"),
-        *("MOVC C00000 V=200.0", "MOVC C00001 V=200.0 PL=0"),
+        *("MOVC C00000 V=200.0", "MOVC C00003 V=200.0 PL=0"),  # each step has a point of its own
     ]
+    assert "C00003=700.000,0.000,500.000,180.0000,0.0000,180.0000" in head
     assert "C00001=700.000,0.000,500.000,180.0000,0.0000,180.0000" in head
     assert head.index("///RCONF 0,0,0,0,0,0") < head.index("///POSTYPE USER") < head.index("///USER 1") + 2
     assert [item.code.name for item in diagnostics] == ["inform-joint-corner"]
