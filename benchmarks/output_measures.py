@@ -2,6 +2,7 @@
 
     python benchmarks/output_measures.py FOLDER... [--to TARGET...] [--limit SECONDS] [--robot R]
                                            [--json] [--markdown] [--helpers]
+                                           [--into PAGE]
 
 A program is a file with its data list; a folder with an `expected.toml` or a VAL3 project is one program. Each is
 written in every other language (there) and what was written is read and written in its own language again (back), for
@@ -19,6 +20,8 @@ points       taught points (data or numbered points with constant values that a 
              the source; at most 1.
 reports      reports of the translation there (errors, losses, warnings) / different kinds of them.
 seconds      time of the translation there.
+
+--into writes the table, without seconds, between the two marks of a page (docs/output.md).
 
 A program that fails or takes longer than the limit is a row with its reason. Nothing can be won by moving code
 elsewhere: a line in a comment, a data list or a side file is one that does not come back, and a program file that is
@@ -64,6 +67,7 @@ ARMS = {
 }
 _LARGEST = 500_000
 _WORST = 5
+_BEGIN, _END = "<!-- measured -->", "<!-- measured until here -->"
 _TOLD = (Severity.ERROR, Severity.LOSS, Severity.WARNING)
 _POINTS = (ir.PoseType, ir.TargetType, ir.JointsType)
 
@@ -245,14 +249,14 @@ def summary(rows: Sequence[Row], figure: str) -> tuple[float, float, int] | None
     return (statistics.median(values), statistics.fmean(values), len(values)) if values else None
 
 
-def table(rows: Sequence[Row]) -> list[str]:
+def table(rows: Sequence[Row], figures: Sequence[tuple[str, str, bool]] = FIGURES) -> list[str]:
     """Markdown: one line for each source and target, then all together. A figure is `median; mean`."""
-    heads = ["from", "to", "programs", *(title for _, title, _ in FIGURES)]
+    heads = ["from", "to", "programs", *(title for _, title, _ in figures)]
     lines = [f"| {' | '.join(heads)} |", "|---|---|" + "---:|" * (len(heads) - 2)]
     pairs = sorted({(row.source, row.target) for row in rows})
     for source, target in [*pairs, ("all", "all")]:
         own = [row for row in rows if source == "all" or (row.source, row.target) == (source, target)]
-        cells = [_cell(summary(own, name)) for name, _, _ in FIGURES]
+        cells = [_cell(summary(own, name)) for name, _, _ in figures]
         failed = sum(bool(row.failed) for row in own)
         count = f"{len(own)}" + (f" ({failed} failed)" if failed else "")
         lines.append(f"| {source} | {target} | {count} | {' | '.join(cells)} |")
@@ -291,6 +295,16 @@ def worst(rows: Sequence[Row]) -> list[str]:
     return lines
 
 
+def put_into(page: Path, rows: Sequence[Row]) -> None:
+    """The table between the marks of a page. Figures that change with the machine's load stay out."""
+    before, begin, rest = page.read_text("utf-8").partition(_BEGIN)
+    _, end, after = rest.partition(_END)
+    if not end:
+        raise SystemExit(f"{page} has not the marks {_BEGIN} and {_END}")
+    shown = "\n".join(table(rows, [one for one in FIGURES if one[0] != "seconds"]))
+    page.write_text(f"{before}{begin}\n\n{shown}\n\n{end}{after}", "utf-8")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="+", type=Path)
@@ -300,8 +314,11 @@ def main() -> None:
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--markdown", action="store_true", help="the table alone")
     parser.add_argument("--helpers", action="store_true", help="also the most frequent helper names")
+    parser.add_argument("--into", type=Path, metavar="PAGE", help="also put the table between the marks of this page")
     options = parser.parse_args()
     rows = run(list(programs(options.folders)), options.to, options.robot, options.limit)
+    if options.into is not None:
+        put_into(options.into, rows)
     if options.json:
         print(json.dumps([asdict(row) for row in rows], indent=1))
         return

@@ -182,9 +182,9 @@ def options() -> set[str]:
 
 
 def test_options_of_the_pages_exist_and_every_option_has_its_place() -> None:
-    """`--write` and `--lines` belong to benchmarks."""
+    """`--write`, `--lines` and `--into` belong to benchmarks."""
     texts = "\n".join(page.read_text("utf-8") for page in PAGES)
     told = set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", texts))
     here = options()
-    assert told - here - {"--write", "--lines"} == set()
+    assert told - here - {"--write", "--lines", "--into"} == set()
     assert here - told == set()

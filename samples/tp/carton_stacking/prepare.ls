@@ -1,7 +1,7 @@
 /PROG  PREPARE
 /ATTR
 OWNER		= MNEDITOR;
-COMMENT		= "outputs off, home";
+COMMENT		= "outputs, home";
 PROG_SIZE	= 0;
 CREATE		= DATE 26-02-10  TIME 09:00:00;
 MODIFIED	= DATE 26-02-10  TIME 09:00:00;
