@@ -56,8 +56,28 @@ DECL E6POS XPlace={X 450,Y 0,Z 300,A 0,B 180,C 10,S 2,T 3}
 ENDDAT
 """,
 }
-ARMS = {"rapid": "abb_irb1600_6_12", "krl": "kuka_kr6r900_2"}
-SOURCES: dict[str, Mapping[str, str]] = {"rapid": {"m.mod": RAPID}, "krl": KRL}
+URSCRIPT = """def main():
+  set_tcp(p[0,0,0.1,0,0,0])
+  global table = p[0.4,-0.3,0.1,0,0,0]
+  global frames = [p[0.4,0.2,0.1,0,0,0], p[0.3,0.3,0.1,0,0,0]]
+  global home = [0,-1.4,1.5,-1.6,-1.5,0.1]
+  global infeed = pose_trans(table, p[0.02,0,0.05,2.2,2.2,0.1])
+  def side():
+    local p1 = p[0.03,0.01,0.2,2.2,2.2,0.1]
+    movel(pose_trans(frames[1], p1), a=1, v=0.2)
+  end
+  def other():
+    local p1 = p[0.05,0.02,0.22,2.2,2.2,0.1]
+    movel(pose_trans(frames[0], p1), a=1, v=0.2)
+  end
+  movej(home, a=1, v=1)
+  movel(infeed, a=1, v=0.2)
+  side()
+  other()
+end
+"""
+ARMS = {"rapid": "abb_irb1600_6_12", "krl": "kuka_kr6r900_2", "urscript": "ur10e"}
+SOURCES: dict[str, Mapping[str, str]] = {"rapid": {"m.mod": RAPID}, "krl": KRL, "urscript": {"main.script": URSCRIPT}}
 
 
 def read(files: Mapping[str, str], language: str) -> ReadProgram:
@@ -101,6 +121,15 @@ def test_points_of_a_data_list_hold(target: str) -> None:
     assert {name: found[name] for name in ("XHome", "XPick", "XPlace")} == dict.fromkeys(
         ("XHome", "XPick", "XPlace"), "holds"
     )
+
+
+def test_features_lists_and_local_waypoints_are_data_of_their_own() -> None:
+    program = read(SOURCES["urscript"], "urscript").program
+    found = {one.name: one.kind for one in taught_data(program)}
+    frames = {"main.tool": "tool", "table": "frame", "frames[0]": "frame", "frames[1]": "frame"}
+    assert found == frames | dict.fromkeys(("home", "infeed", "side.p1", "other.p1"), "point")
+    result = prove_programs(program, program, ARMS["urscript"], teaching=Teaching())
+    assert result.equal and set(states(result).values()) == {"holds"}, result.as_text()
 
 
 def test_a_point_that_two_programs_keep_is_named() -> None:
@@ -159,7 +188,7 @@ def test_moving_by_nothing_keeps_the_verdict(source: str, target: str) -> None:
     assert result.agrees and "fails" not in states(result).values(), result.as_text()
 
 
-@pytest.mark.parametrize("source", ["rapid", "krl"])
+@pytest.mark.parametrize("source", ["rapid", "krl", "urscript"])
 def test_data_taught_as_it_was_is_the_same_data(source: str) -> None:
     program = read(SOURCES[source], source).program
     data = taught_data(program)

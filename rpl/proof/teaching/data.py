@@ -28,6 +28,7 @@ KINDS = (POINT, TOOL, FRAME, NUMBER)
 
 Owner = ir.Variable | ir.Initialise | ir.Assign
 Joints = tuple[float, ...]
+_PLACE = -1  # in a path: what stands behind a frame's name
 _ZERO_MM, _ZERO_DEG = 1e-6, 1e-6
 
 
@@ -70,8 +71,7 @@ class _Finder:
         nodes += [node for module in program.modules for one in module.declarations for node in walk(one)]
         self.named = {node.id.lower() for node in nodes if isinstance(node, ir.Name)}
         self.tools, self.frames = _settings(nodes)
-        set_ = [node.target for node in nodes if isinstance(node, ir.Assign)]
-        self.set = Counter(_element(one).lower() or _root(one) for one in set_)
+        self.set = _set_in(nodes)
         self.labels = _names_of_numbers(program)
 
     def found(self) -> Iterator[Datum]:
@@ -81,9 +81,10 @@ class _Finder:
             for routine in module.routines:
                 inner = self.scope.routine(module, routine)
                 yield from self._declared(routine.declarations, inner, routine.name)
+                own = _set_in(walk(routine))
                 for node in walk(*routine.body):
                     if isinstance(node, ir.Assign):
-                        yield from self._set_once(node, inner, routine.name)
+                        yield from self._set_once(node, inner, routine.name, own)
 
     def _declared(self, declarations: Iterable[ir.Declaration], scope: Scope, routine: str) -> Iterator[Datum]:
         for one in declarations:
@@ -98,24 +99,22 @@ class _Finder:
                         label = self.labels.get(name.lower(), "")
                         yield from self._parts(one, value, scope.resolve(type), scope, name, routine, label)
 
-    def _set_once(self, node: ir.Assign, scope: Scope, routine: str) -> Iterator[Datum]:
-        """A variable that one statement sets to a value that stands there, and settings that do."""
+    def _set_once(self, node: ir.Assign, scope: Scope, routine: str, own: Counter[str]) -> Iterator[Datum]:
+        """A variable that one statement sets to a value that stands there, and settings that do. `own`: how often the
+        routine sets each."""
         match node.target:
-            case ir.Name(id=name) if self.set[name.lower()] == 1 and self._is_used(name):
-                pass
-            case ir.Index() if (name := _element(node.target)) and self.set[name.lower()] == 1:
-                pass
             case ir.System(name="tool" | "base" as system):
-                name = TOOL if system == "tool" else FRAME
+                name, local = TOOL if system == "tool" else FRAME, routine
+            case ir.Name() | ir.Index() if name := _element(node.target):
+                symbol = scope.value(name.partition("[")[0])
+                local = routine if symbol is None or symbol.routine is not None else ""
+                if (own if local else self.set)[name.lower()] != 1 or not self._is_used(name.partition("[")[0]):
+                    return
             case _:
                 return
-        if not isinstance(node.value, ir.Aggregate | ir.Builtin):
-            return
         type = type_of(node.target, scope)
-        if type is not None:
-            symbol = scope.value(name.partition("[")[0])
-            own = routine if symbol is None or symbol.routine is not None else ""
-            yield from self._parts(node, node.value, scope.resolve(type), scope, name, own, "")
+        if type is not None and isinstance(node.value, ir.Aggregate | ir.Builtin | ir.Binary):
+            yield from self._parts(node, node.value, scope.resolve(type), scope, name, local, "")
 
     def _is_used(self, name: str) -> bool:
         return name.lower() in self.named
@@ -158,6 +157,8 @@ def _settings(nodes: Sequence[object]) -> tuple[set[str], set[str]]:
                 tools |= _names(value)
             case ir.Assign(target=ir.System(name="base"), value=value):
                 frames |= _names(value)
+            case ir.Assign(value=ir.Binary(op=":", left=left)):
+                frames |= _names(left)
             case ir.Move(tool=tool, frame=frame):
                 tools |= _names(tool)
                 frames |= _names(frame)
@@ -191,6 +192,12 @@ def _names_of_numbers(program: ir.Program) -> dict[str, str]:
     return found
 
 
+def _set_in(nodes: Iterable[object]) -> Counter[str]:
+    """How often variables and elements are set, by their folded names."""
+    targets = (node.target for node in nodes if isinstance(node, ir.Assign))
+    return Counter(_element(one).lower() or _root(one) for one in targets)
+
+
 def _root(target: ir.Expression) -> str:
     while isinstance(target, ir.Index | ir.Field):
         target = target.base
@@ -211,6 +218,10 @@ _Leaf = tuple[tuple[int, ...], str, ir.Expression, ir.Type, rigid.Pose | Joints 
 
 def _leaves(value: ir.Expression, type: ir.Type, scope: Scope, path: tuple[int, ...], part: str) -> Iterator[_Leaf]:
     """The taught parts of a value: the entries that lead there, the words for it, the expression, type and value."""
+    match type, value:
+        case ((ir.TargetType() | ir.PoseType()), ir.Binary(op=":", left=frame, right=place)) if _names(frame):
+            yield from _leaves(place, ir.PoseType(), scope, (*path, _PLACE), part)
+            return
     match type:
         case ir.TargetType() | ir.PoseType() | ir.JointsType():
             known = _geometry(_stands_there(value, scope))
@@ -345,6 +356,8 @@ def _with_value(owner: Owner, datum: Datum, taught: Taught, scope: Scope) -> Own
 def _at(value: ir.Expression, path: tuple[int, ...], type: ir.Type, taught: Taught, scope: Scope) -> ir.Expression:
     if not path:
         return _written(value, type, taught, scope)
+    if isinstance(value, ir.Binary):
+        return replace(value, right=_at(value.right, path[1:], type, taught, scope))
     assert isinstance(value, ir.Aggregate)  # the path leads through entries
     entries = list(value.entries)
     name, old = entries[path[0]]

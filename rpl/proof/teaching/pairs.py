@@ -90,7 +90,9 @@ def _likeness(one: Datum, other: Datum, given: Sequence[Given]) -> int:
     key = key_of(other)
     if any(called == key and _bare(name) in names for name, called in given):
         return 4
-    if names & _names(other):
+    if one.routine and other.routine and _bare(one.routine) != _bare(other.routine) and not same_value(one, other):
+        return 0  # numbers of two programs tell nothing
+    if names & _names(other) or (_list_of(one) and _list_of(one) == _list_of(other) and same_value(one, other)):
         return 3
     mine, there = _bare(one.label), _bare(other.label)
     if (mine and mine in _names(other) | {there}) or (there and any(_is_cut(there, name) for name in names)):
@@ -108,7 +110,13 @@ def _same_number(one: Datum, other: Datum) -> bool:
 def _names(datum: Datum) -> set[str]:
     """Its names without signs, folded; its first part has the name of the whole too."""
     found = {_bare(datum.variable + datum.part)}
-    return found | {_bare(datum.variable)} if datum.first else found
+    return found | {_bare(datum.variable)} if datum.first and not datum.part.startswith("[") else found
+
+
+def _list_of(datum: Datum) -> str:
+    """The list that it is an element of, folded: the numbers of two languages may begin elsewhere."""
+    name, bracket, _ = (datum.variable + datum.part).partition("[")
+    return _bare(name) if bracket else ""
 
 
 def _words(datum: Datum) -> set[str]:
