@@ -9,12 +9,14 @@ from .components import read_components
 from .composition import compositions
 from .framenumbers import frame_numbers
 from .longlogic import long_logic
+from .moveplaces import places_of_moves
 from .resetclocks import stopped_resets
 from .shown import values_beside_messages
 
 PASSES: tuple[Placed, ...] = (
     Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
+    Placed(places_of_moves, "settings", behind="stand_first"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(compositions, "records", behind="drop_unread_parameters"),
     Placed(read_components, "control", behind="fit_loops"),

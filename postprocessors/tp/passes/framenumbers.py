@@ -282,6 +282,8 @@ def _at_head(body: ir.Body, steady: bool) -> ir.Body:
     """The body that begins with the numbers it selects first, where only what needs none stands before them."""
     front: list[ir.Statement] = []
     rest: list[ir.Statement] = []
+    remarks = next((at for at, one in enumerate(body) if not isinstance(one, ir.Nothing)), 0)
+    body, above = body[remarks:], body[:remarks]
     for at, one in enumerate(body if steady else ()):
         name = _selected(one)
         if name and not one.origin.comments and name not in map(_selected, front) and _is_chosen(one):
@@ -291,7 +293,7 @@ def _at_head(body: ir.Body, steady: bool) -> ir.Body:
             break
         else:
             rest.append(one)
-    return (*sorted(front, key=lambda one: _selected(one)), *rest) if front else body
+    return (*above, *sorted(front, key=lambda one: _selected(one)), *(rest if front else body))
 
 
 def _selected(node: object) -> str:

@@ -1,0 +1,136 @@
+"""Places of moves as people say them in TP: a place seen from a named frame is one in that user frame, and a shift by
+constants is `Offset,PR[n]` or `Tool_Offset,PR[n]` on the taught point, not a place computed in front of the move.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.fold import Unchanged, constant
+from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.facts.forward import reactions
+from rpl.passes.legalise.facts.modalflow import in_frame
+from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
+
+_SHIFTS = {"offset": "element_sum", "tool_offset": ":"}
+_PLAIN = (ir.Name, ir.Index, ir.Field)
+
+
+@legalising(sees=("operator :", "function compose", "function offset", "function tool_offset"))
+def places_of_moves(program: ir.Program, context: Context) -> ir.Program:
+    """Frames in front of places and constant shifts are said at the move."""
+    worker = _Places(context, unchanged_in(program), _keeps_world(program))
+    scopes = ProgramScope(program)
+    modules = []
+    for module in program.modules:
+        routines = []
+        for routine in module.routines:
+            worker.scope = scopes.routine(module, routine)
+            routines.append(edit_bodies(routine, worker.body))
+        modules.append(replace(module, routines=tuple(routines)))
+    if worker.shifts:
+        declared = tuple(ir.Variable(one.id, ir.PoseType(), value, "persistent", "global")
+                         for value, one in worker.shifts.items())  # fmt: skip
+        home = modules[0]
+        modules[0] = replace(home, declarations=(*home.declarations, *declared))
+    return replace(program, modules=tuple(modules))
+
+
+def _keeps_world(program: ir.Program) -> bool:
+    """Is the frame in force the world all the time, and does nothing look where the robot is? Then moves may select
+    frames of their own."""
+    if any(True for _ in reactions(program)):
+        return False
+    for node in walk(*program.modules):
+        match node:
+            case ir.Assign(target=ir.System(name="base" | "displacement")) | ir.Vendor() | ir.Opaque() | ir.Spline():
+                return False
+            case ir.Move(frame=frame, search=search) if frame is not None or search is not None:
+                return False
+        if isinstance(node, ir.Statement) and in_frame(node):
+            return False
+    return True
+
+
+@dataclass(slots=True)
+class _Places:
+    context: Context
+    unchanged: Unchanged
+    framed: bool  # may moves select frames?
+    scope: Scope = field(init=False)
+    shifts: dict[ir.Aggregate, ir.Name] = field(default_factory=dict)
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return map_body(body, self.statement)
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        if not isinstance(statement, ir.Move):
+            return (inside(statement, self.body),)
+        before, move = self.in_frame(statement) if self.framed else ((), statement)
+        return (*before, replace(move, target=self.shifted(move)))
+
+    def in_frame(self, move: ir.Move) -> tuple[ir.Body, ir.Move]:
+        """The move with its place in the frame that it is seen from, and what selects this frame or the world."""
+        if move.relative == "tool" or isinstance(type_of(move.target, self.scope), ir.JointsType):
+            return (), move
+        frame, target = self.split(move.target)
+        through = None if move.via is None else self.split(move.via)
+        if frame is None or move.relative is not None or (through is not None and through[0] != frame):
+            return (ir.Assign(ir.System("base"), ir.System("null_frame")),), move
+        via = None if through is None else through[1]
+        return (ir.Assign(ir.System("base"), frame),), replace(move, target=target, via=via)
+
+    def split(self, place: ir.Expression) -> tuple[ir.Expression | None, ir.Expression]:
+        """The named frame that a place is seen from, and the place in it."""
+        match place:
+            case ir.Binary(op=":", left=ir.Name() as frame, right=inner) if self.is_frame(frame):
+                return frame, inner
+            case ir.Builtin(function="compose", arguments=(ir.Name() as frame, inner)) if self.is_frame(frame):
+                return frame, inner
+            case ir.Binary(op=":", left=left, right=right):
+                frame_of, inner = self.split(left)
+                return frame_of, place if frame_of is None else replace(place, left=inner, right=right)
+            case ir.Builtin(function="offset" | "tool_offset" as how, arguments=(base, *rest)):
+                frame_of, inner = self.split(base)
+                if frame_of is None or how == "offset":
+                    return None, place
+                return frame_of, replace(place, arguments=(inner, *rest))
+        return None, place
+
+    def is_frame(self, name: ir.Name) -> bool:
+        symbol = self.scope.value(name.id)
+        shared = symbol is not None and symbol.routine is None and name.id.lower() not in self.unchanged.assigned
+        return shared and isinstance(type_of(name, self.scope), ir.PoseType)
+
+    def shifted(self, move: ir.Move) -> ir.Expression:
+        """The target with a constant shift of it in data of its own, as the register that the move names."""
+        match move.target:
+            case ir.Builtin(function=name, arguments=(base, *rest)) if name in _SHIFTS and len(rest) == 3:
+                numbers = [constant(one, self.scope, self.unchanged) for one in rest]
+                if move.relative is not None or not isinstance(base, _PLAIN) or not all(map(_is_number, numbers)):
+                    return move.target
+                shift = self.shift([float(one) for one in numbers if isinstance(one, int | float)])
+                if name == "offset":
+                    return ir.Builtin("element_sum", (base, shift), origin=move.target.origin)
+                return ir.Binary(":", base, shift, origin=move.target.origin)
+        return move.target
+
+    def shift(self, numbers: list[float]) -> ir.Name:
+        values = dict(zip(ir.POSE, [*numbers, 0.0, 0.0, 0.0], strict=True))
+        pose = ir.Aggregate(tuple((name, ir.RealLiteral(one)) for name, one in values.items()), type_name="pose")
+        if pose not in self.shifts:
+            parts = [f"{name}{one:g}" for name, one in values.items() if one] or ["0"]
+            name = "shift_" + "_".join(parts).replace("-", "m").replace(".", "p")
+            self.shifts[pose] = ir.Name(self.context.fresh(name))
+        return self.shifts[pose]
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
