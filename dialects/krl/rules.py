@@ -101,6 +101,7 @@ RULES = Rules(
     type_names=tables.BASIC_TYPES,
     triggers=TRIGGERS,
     load_variables=LOADS,
+    system_data=frozenset(("$config",)),
     analog=ANALOG,
     inputs=INPUTS,
     pulse_step_s=0.1,  # expert programming, 5.4: rounded to the nearest tenth of a second

@@ -29,6 +29,8 @@ SLOTS = {"real": ("REAL", "0.5"), "int": ("INT", "0"), "name": ("NAME", "n0"), "
 
 _LINE = re.compile(r"[^\r\n]+")
 _CODE = re.compile(r'(?:[^;"]|"[^"]*(?:"|$))*')
+# What the editor keeps for itself: folds, and what the dialogs of inline forms (KSS 8) hold.
+_EDITORS = ("FOLD", "ENDFOLD", "PARAMS ILFPROVIDER=")
 _MARKS = re.compile("[\ufeff\x1a\x00]")
 _BLANKS = " \t\f\ufeff\u00a0\x1a\x00"
 
@@ -55,8 +57,8 @@ def split(source: Source, cursor: Cursor | None = None) -> Iterator[Piece]:
         if _MARKS.search(line):  # a byte order mark, the end sign of old editors: part of the line they stand on
             at, end = start, match.end()
         if body[0] == ";":
-            fold = body[1:].lstrip()[:7].upper()
-            kind = LAYOUT if fold.startswith(("FOLD", "ENDFOLD")) else COMMENT
+            said = body[1:].lstrip().upper()
+            kind = LAYOUT if said.startswith(_EDITORS) else COMMENT
             yield Piece(kind, at, end, body[1:])
         elif ";" in body and body[0] != "&":
             code = _CODE.match(body)

@@ -221,7 +221,8 @@ class Rules:
     kept_at: where the controller shows values that it keeps, by the word that their names begin with.
     mean_parabolas: a curve through points is the mean of the two parabolas that overlap there, weighted along the way
     (else it bends continuously; see rpl.passes.curves). analog: what numbers of analogue signals stand for, as far as
-    the language fixes it; without a range the I/O configuration alone says it.
+    the language fixes it; without a range the I/O configuration alone says it. system_data: modules (folded) of data
+    that belong to the controller and not to a program; what a program does not use of them is no part of it.
     """
 
     name: str
@@ -265,6 +266,7 @@ class Rules:
     kept_at: Mapping[str, str] = field(default_factory=dict)
     mean_parabolas: bool = False
     analog: tuple[AnalogPorts, ...] = ()
+    system_data: frozenset[str] = frozenset()
 
     def percents_of(self, name: str) -> tuple[float, float]:
         """Least and most that counts of a percentage of acceleration."""

@@ -22,6 +22,7 @@ from rpl.project import read_sources
 from rpl.runtime.trace import RunResult
 from rpl.simulation import run_program
 from rpl.source import source_from_text
+from rpl.translation import translate_program
 
 ROBOT = "kuka_kr6r900sixx"
 POINT = "X 400.0,Y 50.0,Z 500.0,A 0.0,B 90.0,C 0.0,S 2,T 3"
@@ -183,3 +184,45 @@ def test_a_program_runs_to_the_same_trace(steps: list[str]) -> None:
     before, after = (run_program(one, ROBOT, entry="forms", max_time_s=120.0) for one in (program, evaluated(program)))
     assert driven(before) == driven(after)
     assert before.status == after.status
+
+
+HOME_8 = (
+    ";FOLD SPTP HOME Vel=100 % DEFAULT ;%{PE}\n;FOLD Parameters ;%{h}\n"
+    ";Params IlfProvider=kukaroboter.basistech.inlineforms.movement.spline; Kuka.PointName=HOME\n;ENDFOLD\n"
+    "SPTP XHOME WITH $VEL_AXIS[1]=SVEL_JOINT(100.0),$TOOL=STOOL2(FHOME),$BASE=SBASE(FHOME.BASE_NO),"
+    "$IPO_MODE=SIPO_MODE(FHOME.IPO_FRAME),$LOAD=SLOAD(FHOME.TOOL_NO),$ACC_AXIS[1]=SACC_JOINT(PDEFAULT),"
+    "$APO=SAPO_PTP(PDEFAULT),$GEAR_JERK[1]=SGEAR_JERK(PDEFAULT),$COLLMON_TOL_PRO[1]=USE_CM_PRO_VALUES(0)\n;ENDFOLD\n"
+)
+
+
+def written(files: dict[str, str]) -> tuple[list[str], Diagnostics]:
+    """The lines in RAPID, remarks and empty ones left out."""
+    diagnostics = Diagnostics()
+    found = read_sources([source_from_text(name, text) for name, text in files.items()], "krl", diagnostics)
+    done = translate_program(found, "rapid", ROBOT, None, diagnostics)
+    lines = [line.strip() for file in done.files for line in file.data.decode().splitlines()]
+    return [line for line in lines if line and not line.startswith("!")], diagnostics
+
+
+def test_two_forms_are_two_moves() -> None:
+    init = "GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )\nINTERRUPT ON 3\nBAS(#INITMOV,0)\n"
+    lines, _ = written({"home8.src": f"DEF home8( )\n{init}{HOME_8 * 2}END\n"})
+    begin, end = lines.index("PROC home8()"), lines.index("ENDPROC")
+    assert lines[begin + 1 : end] == ["MoveAbsJ XHOME,vmax,fine,tool0;"] * 2
+    assert [line.split(":=")[0] for line in lines if "PERS" in line] == ["PERS jointtarget XHOME"]
+
+
+def test_what_a_program_does_not_use_of_the_controllers_data_is_left_out() -> None:
+    """The controller's list declares the data and records of forms itself, and hides those of the prelude."""
+    config = CONFIG.replace(
+        "DEFDAT $CONFIG PUBLIC\n",
+        "DEFDAT $CONFIG PUBLIC\nSTRUC FDAT INT TOOL_NO,BASE_NO,IPO_M_T IPO_FRAME,CHAR POINT2[24],BOOL TQ_STATE\n"
+        "DECL FDAT FDAT_ACT\nDECL FRAME TOOL_DATA[16]\nDECL FRAME BASE_DATA[32]\nDECL INT OTHERS=5\nDECL E6AXIS XFAR\n",
+    )
+    source = f"DEF forms()\nBAS(#INITMOV,0)\n{JOINT.format(1, 60)}END\n"
+    lines, diagnostics = written({"forms.src": source, "forms.dat": DATA, "$config.dat": config})
+    assert "MoveJ XP1,v3000,fine,TOOL_DATA1\\WObj:=BASE_DATA2;" in lines
+    text = "\n".join(lines)
+    assert not [name for name in ("FDAT", "OTHERS", "XFAR", "TOOL_DATA2", "rpl_initialise") if name in text]
+    (told,) = (item.as_text() for item in diagnostics if item.code.name == "controller-data-left-out")
+    assert "$CONFIG" in told

@@ -1,4 +1,4 @@
-"""Interrupts whose routine does nothing are left out of the translation, with a warning and a remark."""
+"""Interrupts whose routine does nothing are left out of the translation, with a remark where they are the program's."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def written(text: str, target: str) -> tuple[str, Diagnostics, ReadProgram]:
 def test_the_stop_message_of_inline_forms(target: str) -> None:
     text, diagnostics, back = written(PROGRAM % INIT, target)
     assert not [item.as_text() for item in diagnostics.of(Severity.LOSS)]
-    assert "empty-reaction-left-out" in [item.code.name for item in diagnostics]
-    assert "left out: " in text.lower()
+    assert "controller-reaction-left-out" in [item.code.name for item in diagnostics]
+    assert "left out: " not in text.lower()
     assert run_program(back.program).status == "finished"
 
 
@@ -39,6 +39,7 @@ def test_the_stop_message_of_inline_forms(target: str) -> None:
 def test_only_what_does_nothing(body: str, stays: bool) -> None:
     declared = "INTERRUPT DECL 4 WHEN $IN[1]==TRUE DO hit( )\nINTERRUPT ON 4\n"
     text, _, _ = written(PROGRAM % (declared + "INTERRUPT OFF\n") + OWN % body, "rapid")
+    assert ("left out: " in text) != stays
     assert ("CONNECT" in text) == stays and ("ISignalDI" in text) == stays and ("IDelete" in text) == stays
 
 

@@ -1,17 +1,23 @@
-"""Which names a program mentions, and which of its modules are the used part of the source's prelude."""
+"""Which names a program mentions, and which of its modules belong to the source's controller: the used part of its
+prelude, and the controller's own data lists."""
 
 from __future__ import annotations
 
 from rpl import ir
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.rewrite import rewrite_parts
 
 _BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
 
 
 def is_linked(module: ir.Module, context: Context) -> bool:
-    """Is it the used part of the source's prelude?"""
-    return module.name.lower().startswith(f"{context.source}_base")
+    """Is it the used part of the source's prelude, or a list of its controller's own data?"""
+    return module.name.lower().startswith(f"{context.source}_base") or is_system_data(module, context)
+
+
+def is_system_data(module: ir.Module, context: Context) -> bool:
+    """Is it a list of data that belongs to the source's controller?"""
+    return module.name.lower() in rules_of(context.source).system_data
 
 
 def called_as(name: str) -> str:
@@ -85,4 +91,4 @@ def mentioned(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
     return found
 
 
-__all__ = ["called_as", "is_linked", "mentioned"]
+__all__ = ["called_as", "is_linked", "is_system_data", "mentioned"]

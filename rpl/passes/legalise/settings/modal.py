@@ -331,10 +331,15 @@ class _Explicit:
         tool = move.tool or self.modal_data("tool")
         frame = move.frame or self.modal_data("base")
         later = replace(move.origin, comments=())
-        if "tool" in own:
+        said = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
+        if "tool" in own and self.is_datum(said["tool"]):
+            tool = said["tool"]
+        elif "tool" in own:
             tool = self.name("with_tool")
             before.append(ir.Assign(ir.Field(tool, "frame"), own["tool"], origin=later))
-        if "base" in own:
+        if "base" in own and self.is_datum(said["base"]):
+            frame = said["base"]
+        elif "base" in own:
             frame = self.name("with_frame")
             before.append(ir.Assign(ir.Field(frame, "user_frame"), own["base"], origin=later))
         done = rewrite_parts(move, self.expression)

@@ -1,5 +1,6 @@
 """Interrupts whose routine does nothing (the one for stop messages that KRL's inline forms declare in every program):
-they are left out with a remark, and so is what switches them on and off.
+they are left out, and so is what switches them on and off. A routine of the program leaves a remark; what the source's
+controller calls of its own is its own affair.
 """
 
 from __future__ import annotations
@@ -22,6 +23,12 @@ LEFT_OUT = code(
     Severity.WARNING,
     "{text} calls a routine that does nothing; it is left out",
     "write down by hand what should happen then on the target's controller",
+)
+
+CONTROLLERS_OWN = code(
+    "controller-reaction-left-out",
+    Severity.INFO,
+    "{text} calls what the source's controller does of its own then; it is left out",
 )
 
 
@@ -90,6 +97,9 @@ class _Left:
         match statement:
             case ir.DeclareInterrupt() if _number(statement) in gone:
                 text = _words(statement.origin)
+                if self.is_controllers(statement):
+                    self.facts.context.diagnostics.report(CONTROLLERS_OWN, statement.origin, text=text)
+                    return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
                 self.facts.context.diagnostics.report(LEFT_OUT, statement.origin, text=text)
                 remark = Comment(f" left out: {text}")
                 origin = replace(statement.origin, comments=(*statement.origin.comments, remark))
@@ -101,6 +111,11 @@ class _Left:
         if blocks(statement):
             return (rewrite_parts(statement, lambda one: one, self.body),)
         return (statement,)
+
+    def is_controllers(self, statement: ir.DeclareInterrupt) -> bool:
+        """Is the routine one that the source's controller brings along?"""
+        called = self.scope.routine(statement.action.name) if isinstance(statement.action, ir.CallRoutine) else None
+        return called is not None and self.scope.program.home(called) is None
 
 
 def _words(origin: Origin) -> str:

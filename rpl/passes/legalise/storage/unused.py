@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rpl import ir
+from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.parameters import ARGUMENTS
-from rpl.passes.legalise.facts.mentioned import called_as, is_linked, mentioned
+from rpl.passes.legalise.facts.mentioned import called_as, is_linked, is_system_data, mentioned
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 
 IDLE = code("data-used-nowhere", Severity.INFO, "used nowhere in the program, so without a number: {names}")
+
+NOT_USED = code(
+    "controller-data-left-out",
+    Severity.INFO,
+    "{count} of the data of the source's controller in {name} are used nowhere in the program, and left out",
+)
 
 
 @legalising()
@@ -41,6 +47,7 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
     modules = []
     for module in program.modules:
         gone = {id(one) for one in parts} - kept
+        _tell_left_out(module, gone, context)
         declarations = tuple(one for one in module.declarations if id(one) not in gone)
         routines = tuple(one for one in module.routines if id(one) not in gone)
         if declarations or routines or not is_linked(module, context):
@@ -65,9 +72,22 @@ def drop_idle_data(program: ir.Program, context: Context) -> ir.Program:
 
 
 def _is_generated(one: ir.Declaration, module: ir.Module, context: Context) -> bool:
-    """Part of a linked prelude, or a record that stands for a built-in type."""
+    """Part of a linked prelude, or a record that stands for a built-in type. Names of signals stay, for programs use
+    signals by their numbers too."""
     record = isinstance(one, ir.RecordDeclaration) and one.name.startswith("rpl_")
-    return record or is_linked(module, context)
+    return record or (is_linked(module, context) and not isinstance(one, ir.SignalDeclaration))
+
+
+def _tell_left_out(module: ir.Module, gone: set[int], context: Context) -> None:
+    """Say what of the controller's own data the program does not use; what every controller has is no news."""
+    if not is_system_data(module, context):
+        return
+    prelude = registry.dialect(context.source).prelude()
+    usual = {name for one in (prelude.declarations if prelude else ()) for name in _declares(one)}
+    left = [one for one in module.declarations if isinstance(one, ir.Variable) and id(one) in gone]
+    left = [one for one in left if one.name.lower() not in usual]
+    if left:
+        context.diagnostics.report(NOT_USED, left[0].origin, name=module.name, count=len(left))
 
 
 def _declares(one: ir.Declaration | ir.Routine) -> set[str]:
