@@ -60,6 +60,7 @@ CAPABILITIES = Capabilities(
         "function parse_value": "StrToReal and kin beside a BOOL",
     },
     names=NameRules(
+        started_as_module=True,
         longest=24,
         case_sensitive=False,
         reserved=tables.RESERVED,

@@ -73,6 +73,8 @@ class Expressions:
                 return text_literal(value)
             case ir.Name(id=name):
                 return name
+            case ir.Index(base=ir.Index(base=base, indices=outer), indices=inner):
+                return self.hook(ir.Index(base, (*outer, *inner)), printer)
             case ir.Index(base=base, indices=indices):
                 return f"{printer.atom(base)}{{{self.list(indices)}}}"
             case ir.Field():

@@ -26,9 +26,11 @@ def rename(
     the target does not accept."""
     collector = _Collector()
     collector.program(program)
-    pinned = _pinned(collector, rules, earlier, hiding)
+    started = _started(program, collector) if rules.started_as_module else {}
+    pinned = _pinned(collector, rules, earlier, hiding, frozenset(started))
     mangler = NameMangler(rules, collector.names, routines=collector.routines, pinned=pinned)
     changed = mangler.renamed()
+    changed |= {name: changed.get(module, module) for name, module in started.items()}
     if not changed:
         return program, {}
     folded = {old.lower(): new for old, new in changed.items()}
@@ -53,9 +55,25 @@ def rename_hiding(program: ir.Program, rules: NameRules) -> tuple[ir.Program, di
     return _Renamer(folded, collector.fields, collector.members, ProgramScope(program)).program(program), changed
 
 
-def _pinned(collector: _Collector, rules: NameRules, earlier: NameMap, hiding: Mapping[str, str]) -> dict[str, str]:
+def _started(program: ir.Program, collector: _Collector) -> dict[str, str]:
+    """The routine `main` to the name of its module, where nothing else of the program has either name."""
+    mains = [(one.name, module.name) for module in program.modules for one in module.routines if _is_main(one.name)]
+    if len(mains) != 1:
+        return {}
+    [(name, module)] = mains
+    own = [one.lower() for one in collector.declared]
+    return {} if module.lower() in own or own.count(name.lower()) > 1 else {name: module}
+
+
+def _is_main(name: str) -> bool:
+    return name.lower() == "main"
+
+
+def _pinned(
+    collector: _Collector, rules: NameRules, earlier: NameMap, hiding: Mapping[str, str], started: frozenset[str]
+) -> dict[str, str]:
     """Names of the program to what the map calls them. A name that keeps its spelling gets another all the same when
-    the target does not accept it (any more)."""
+    the target does not accept it (any more). What is `started` is called as its module."""
     if not earlier.names:
         return {}
     check = NameMangler(rules, routines=collector.routines)
@@ -64,7 +82,7 @@ def _pinned(collector: _Collector, rules: NameRules, earlier: NameMap, hiding: M
     owners: dict[str, str] = {}
     for name in collector.names:
         old, new = folded.get(name.lower(), ("", ""))
-        if not new:
+        if not new or name in started:
             continue
         if not check.legal(new) or new.lower() in rules.predefined:
             if new.lower() in (old.lower(), name.lower()):

@@ -28,3 +28,6 @@ class NameRules:
     predefined: frozenset[str] = frozenset()
     """Names (lower case) of the data and routines every controller has; a program's own of that name would hide it, so
     it gets another."""
+
+    started_as_module: bool = False
+    """A routine `main` bears the name of its module: that is what the operator selects and starts."""
