@@ -408,7 +408,7 @@ def _given(translation: Translation, back: ReadProgram) -> tuple[Given, ...]:
     from rpl.proof.teaching.pairs import given_by
 
     numbers = ((bank, number, name) for (bank, number), name in translation.registers.items())
-    return given_by(translation.renamed.items(), numbers, taught_data(back.program))
+    return given_by(translation.renamed.items(), numbers, taught_data(back.program, set_numbers=True))
 
 
 def _document(

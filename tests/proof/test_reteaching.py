@@ -90,7 +90,7 @@ def read(files: Mapping[str, str], language: str) -> ReadProgram:
 def given(journey: Journey) -> tuple[Given, ...]:
     """What the translation says about its names and numbers."""
     numbers = ((bank, number, name) for (bank, number), name in journey.written.registers.items())
-    return given_by(journey.written.renamed.items(), numbers, taught_data(journey.program))
+    return given_by(journey.written.renamed.items(), numbers, taught_data(journey.program, set_numbers=True))
 
 
 def taught(journey: Journey, amount: Amount | None = None) -> ProofResult:
@@ -121,6 +121,14 @@ def test_points_of_a_data_list_hold(target: str) -> None:
     assert {name: found[name] for name in ("XHome", "XPick", "XPlace")} == dict.fromkeys(
         ("XHome", "XPick", "XPlace"), "holds"
     )
+
+
+@pytest.mark.parametrize("target", ["krl", "urscript"])
+def test_a_number_that_the_controller_keeps_is_moved(target: str) -> None:
+    kept = "  PERS num nAbove:=92.5;\n  PERS num nParts:=4;\n  PROC main"
+    text = RAPID.replace("  PROC main", kept).replace("Offs(pPick,0,0,100)", "Offs(pPick,0,0,nAbove)")
+    found = states(taught(there_and_back({"m.mod": text}, "rapid", target, ARMS["rapid"])))
+    assert found["nAbove"] == "holds" and "nParts" not in found
 
 
 def test_features_lists_and_local_waypoints_are_data_of_their_own() -> None:

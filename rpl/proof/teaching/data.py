@@ -57,15 +57,16 @@ class Datum:
         return {"name": self.name, "kind": self.kind, "file": self.place.file, "line": self.place.line}
 
 
-def taught_data(program: ir.Program) -> tuple[Datum, ...]:
-    """The taught data of a normalised program that its statements name, in the order of the files."""
-    finder = _Finder(program)
+def taught_data(program: ir.Program, *, set_numbers: bool = False) -> tuple[Datum, ...]:
+    """The taught data of a normalised program that its statements name, in the order of the files. `set_numbers`: also
+    numbers that the only statement about a variable sets, as a translation does for those that a controller keeps."""
+    finder = _Finder(program, set_numbers)
     return tuple(finder.found())
 
 
 class _Finder:
-    def __init__(self, program: ir.Program) -> None:
-        self.program, self.scope = program, ProgramScope(program)
+    def __init__(self, program: ir.Program, set_numbers: bool) -> None:
+        self.program, self.scope, self.set_numbers = program, ProgramScope(program), set_numbers
         routines = [(module, routine) for module in program.modules for routine in module.routines]
         nodes = [node for _, routine in routines for node in walk(routine)]
         nodes += [node for module in program.modules for one in module.declarations for node in walk(one)]
@@ -91,7 +92,9 @@ class _Finder:
             match one:
                 case ir.Variable(name=name, initial=ir.Aggregate() | ir.Builtin() as value) if self._is_used(name):
                     yield from self._parts(one, value, scope.resolve(one.type), scope, name, routine, one.label)
-                case ir.Variable(name=name, initial=value, storage="persistent") if value and self._is_used(name):
+                case ir.Variable(name=name, initial=value, storage=storage) if (
+                    value and (storage == "persistent" or self.set_numbers) and self._is_used(name)
+                ):
                     yield from self._parts(one, value, scope.resolve(one.type), scope, name, routine, one.label)
                 case ir.Initialise(assign=ir.Assign(target=target, value=value)) if name := _element(target):
                     type = type_of(target, scope)
@@ -113,7 +116,8 @@ class _Finder:
             case _:
                 return
         type = type_of(node.target, scope)
-        if type is not None and isinstance(node.value, ir.Aggregate | ir.Builtin | ir.Binary):
+        number = self.set_numbers and isinstance(node.value, ir.RealLiteral | ir.Unary)
+        if type is not None and (number or isinstance(node.value, ir.Aggregate | ir.Builtin | ir.Binary)):
             yield from self._parts(node, node.value, scope.resolve(type), scope, name, local, "")
 
     def _is_used(self, name: str) -> bool:

@@ -90,7 +90,7 @@ def _settled(program: ir.Program, cell: Cell | None) -> tuple[ir.Program, Cell |
 class _Teacher:
     def __init__(self, base: ProofResult, runs: Runs, asked: Teaching) -> None:
         self.base, self.runs, self.asked = base, runs, asked
-        self.ours, self.theirs = taught_data(runs.program_a), taught_data(runs.program_b)
+        self.ours, self.theirs = taught_data(runs.program_a), taught_data(runs.program_b, set_numbers=True)
         self.pairs = paired(self.ours, self.theirs, asked.given)
         self.count = 0
         self.difference: Difference | None = None
