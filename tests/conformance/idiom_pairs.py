@@ -35,10 +35,10 @@ from output_text import LAYOUTS, lines_of
 
 FILE = Path(__file__).parent / "idiom_pairs.json"
 LANGUAGES = ("krl", "rapid", "tp", "inform", "urscript", "vplus")
-TASKS = ("carton_stacking", "lathe_tending")
+TASKS = ("carton_stacking", "lathe_tending", "gauge_sorting")
 _COMMENT = {
     "krl": r";(?!\s*(?:END)?FOLD)",
-    "rapid": "!",
+    "rapid": r"[^!\"]*!",
     "tp": r"\d+:\s*!",
     "inform": "'",
     "urscript": "#",
@@ -109,7 +109,7 @@ def _counts(program: ir.Program) -> tuple[int, int, int]:
 
 
 def _comments(language: str, sources: tuple[Source, ...] | list[Source]) -> list[str]:
-    """The comments on lines of their own, each by its letters and digits."""
+    """The comments on lines of their own (or behind the head of a routine), each by its letters and digits."""
     begins = re.compile(rf"\s*{_COMMENT[language]}\s*(.*)")
     suffixes = LAYOUTS[language].suffixes
     texts = [one.text for one in sources if PurePosixPath(one.path).suffix.lower() in suffixes]
