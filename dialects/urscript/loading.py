@@ -50,17 +50,5 @@ RULES = (
         Trust.M,
         twice(r"^[ \t]*(?:def|thread)[ \t]+(\w+)", capitals=True),
     ),
-    Rule(
-        "urscript-body",
-        "a block holds a statement",
-        "syntax error, nothing runs",
-        "write pass",
-        _MANUAL,
-        Trust.M,
-        having(
-            r"^[ \t]*((?:def|thread|sec|if|elif|else|while)\b[^\r\n]*:)[ \t]*\r?\n(?:[ \t]*\r?\n)*"
-            r"[ \t]*(?:end|else|elif)\b"
-        ),
-    ),
 )
 LOADER = Loader(RULES, _BLANKS)

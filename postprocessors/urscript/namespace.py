@@ -12,6 +12,8 @@ from typing import TypeVar
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 
+from .helpers import HELPERS
+
 Node = TypeVar("Node")
 
 
@@ -94,14 +96,16 @@ def names_of(program: ir.Program) -> set[str]:
 
 
 def one_namespace(program: ir.Program, start: ir.Routine | None) -> tuple[ir.Program, ir.Routine | None]:
-    """The program with names that differ wherever they mean different things at the level of the script, and the
-    routine that it starts with."""
+    """The program with names that differ wherever they mean different things at the level of the script, the functions
+    that the writer brings along included, and the routine that it starts with."""
     taken = names_of(program)
+    own = {name for module in program.modules for name in _declared(module)}
+    brought = {name: _free(name, taken) for name in sorted(own & HELPERS.keys())}
     seen: set[str] = set()
     modules: list[ir.Module] = []
     first: ir.Routine | None = None
     for module in program.modules:
-        changes: dict[str, str] = {}
+        changes = dict(brought)
         for name in _declared(module):
             if name in seen:
                 changes[name] = _free(name, taken)
@@ -112,8 +116,8 @@ def one_namespace(program: ir.Program, start: ir.Routine | None) -> tuple[ir.Pro
         if at is not None:
             first = done.routines[at]
     if first is not None:
-        own = {one.name for one in first.declarations if isinstance(one, ir.Variable)}
-        hiding = {name: _free(name, taken) for name in sorted(own & seen)}
+        hidden = {one.name for one in first.declarations if isinstance(one, ir.Variable)}
+        hiding = {name: _free(name, taken) for name in sorted(hidden & seen)}
         if hiding:
             old, first = first, renamed(first, hiding)
             modules = [

@@ -139,7 +139,6 @@ CASES = [
     ("urscript", UR, "global n", "global halt", [("urscript-reserved", 2)]),
     ("urscript", UR, "global n", "global 1n", [("urscript-name", 2)]),
     ("urscript", UR, "  b()", "  def b():\n    n = 1\n  end", [("urscript-defined-twice", 6)]),
-    ("urscript", UR, "    n = 2\n", "", [("urscript-body", 3)]),
     ("vplus", VPLUS, "y = 1", f"{LONG} = 1", [("vplus-name-length", 3)]),
     ("vplus", VPLUS, ".END", ".END\n.PROGRAM a()\n.END", [("vplus-program-once", 6)]),
     ("vplus", VPLUS, "y = 1", f'TYPE "{"a" * 129}"', [("vplus-text-length", 3)]),
