@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from rpl.diagnostics import Diagnostics
 from rpl.errors import UsageError
+from rpl.ir.standing import NOTHING, Standing
 from rpl.source import Source
 from rpl.tomlfile import read_toml
 from rpl.words import Words
@@ -63,6 +64,10 @@ def _no_companions(path: str) -> tuple[str, ...]:
     return ()
 
 
+def _nothing_stands(sources: Sequence[Source]) -> Standing:
+    return NOTHING
+
+
 def _nothing_said(program: Program) -> tuple[AnalogPorts, ...]:
     return ()
 
@@ -78,7 +83,8 @@ class Dialect:
     the language spells a numbered signal. aliases: other words that people ask for it by, such as its maker's name;
     capitals do not count.
     analog_said(program): the ranges of analogue signals that a program of the language itself says. signal_of(text):
-    what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None. loading(): what its
+    what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None. standing(sources): what
+    the files of a backup say is on the controller, beside the names that its programs declare. loading(): what its
     controller refuses to load, or None where nobody knows.
     """
 
@@ -97,6 +103,7 @@ class Dialect:
     analog_said: Callable[[Program], tuple[AnalogPorts, ...]] = _nothing_said
     signal_of: Callable[[str], Signal | None] = _no_signal
     loading: Callable[[], Loader] | None = None
+    standing: Callable[[Sequence[Source]], Standing] = _nothing_stands
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from rpl.errors import UsageError
 from rpl.housestyle import compare_house_style
 from rpl.ir.analog import AnalogSetting
 from rpl.ir.columns import LooksInsideError, Stretch
+from rpl.ir.standing import NOTHING, Standing
 from rpl.passes.analog import analog_ranges
 from rpl.passes.expanded import expanded
 from rpl.passes.given import with_given
@@ -24,6 +25,7 @@ from rpl.passes.stretches import settled, with_stretches
 from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
+from rpl.writing.beside import report_beside
 from rpl.writing.lineorigins import LineOrigins, line_origins
 from rpl.writing.namemap import NameMap, check_map
 from rpl.writing.names import NO_MAP, named, rename, rename_hiding, renamed_twice
@@ -108,6 +110,7 @@ def translate_program(
     mechanisms: tuple[Mechanism, ...] = (),
     analog: tuple[AnalogSetting, ...] = (),
     templates: Mapping[str, str] | None = None,
+    there: Standing = NOTHING,
 ) -> Translation:
     """Write a program that was read in another language (or anew in its own).
 
@@ -118,7 +121,8 @@ def translate_program(
     variables of a cell file); what is written for another controller sets them. `mechanisms`: those of the cell, beside
     those of the robot's file. `analog`: ranges of analogue signals (the cell's `[analog.LANGUAGE]`).
     `templates`: a plant's own for the target, path -> text (rpl.writing.house); one that fails or that writes another
-    program is an error.
+    program is an error. `there`: what stands on the robot that will run it (rpl.standing): nothing of it is given to
+    something else, and what is the same is taken.
     What the target cannot say is written as a guarded stop and listed in `losses`.
     """
     collector = diagnostics if diagnostics is not None else Diagnostics()
@@ -135,6 +139,7 @@ def translate_program(
     def translated(program: ir.Program, stretches: tuple[Stretch, ...]) -> Translation:
         context = Context(source, target_name, capabilities, collector, first, second)
         context.registers, context.stretches, context.before = earlier.numbers, stretches, len(collector)
+        context.there = there
         context.analog = {one: analog_ranges(program, one, analog) for one in dict.fromkeys(languages)}
         whole = with_given(program, given) if given and source != target_name else program
         return _translated(whole, context, second, own, templates or {}, earlier)
@@ -176,17 +181,21 @@ def _translated(
     collector, target = context.diagnostics, registry.target(context.target)
     before = len(collector)
     renamed: dict[str, str] = {}
+    apart: dict[str, str] = {}
     if source != target_name:
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
-        program, legal = rename(legalise(whole, context, target.passes()), capabilities.names, earlier, hiding)
+        legal_program = legalise(whole, context, target.passes())
+        taken, numbered = frozenset(context.there.names), bool(capabilities.storage.banks)
+        program, legal = rename(legal_program, capabilities.names, earlier, hiding, taken, numbered)
+        apart = _apart(legal, rename(legal_program, capabilities.names, earlier, hiding)[1]) if taken else {}
         program = settled(program, context.stretches, collector.items[before:])
         program = program if target.rows else expanded(program)
         renamed = renamed_twice(hiding, legal)
     else:
         program = legalise(whole, context)
     legalised = len(collector)
-    asked = WriteContext(collector, robot, options, context.register_names, context.foreign, templates)
+    asked = WriteContext(collector, robot, options, context.register_names, context.foreign, templates, context.there)
     try:
         files = target.write(program, asked)
     except UnicodeEncodeError as error:
@@ -207,12 +216,19 @@ def _translated(
     groups = _groups(context) if names and capabilities.storage.banks else {}
     given = NameMap(target_name, names, {**numbers, **groups, **_signals(context, renamed)}, types).behind(earlier)
     _not_kept(given, earlier, collector)
+    used = {**numbers, **context.signal_names}
+    report_beside(context.there, given, earlier, apart, used, collector)
     silent = replace(asked, diagnostics=Diagnostics())
 
     def write(program: ir.Program) -> Sequence[OutputFile]:
         return target.write(program, silent)
 
     return Translation(tuple(files), written, renamed, losses, dict(numbers), dict(types), names, given, write)
+
+
+def _apart(renamed: Mapping[str, str], alone: Mapping[str, str]) -> dict[str, str]:
+    """Source name -> new name of what would have another name if nothing stood on the robot."""
+    return {name: new for name, new in renamed.items() if alone.get(name, name) != new}
 
 
 def _groups(context: Context) -> dict[tuple[str, int], str]:

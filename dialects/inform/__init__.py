@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rpl.checks.loading import Loader
     from rpl.emulator.configuration import Notation
     from rpl.ir.rules import Rules
+    from rpl.ir.standing import Standing
 
 _JOB = re.compile(r"^\ufeff?\s*/JOB[ \t]*$", re.MULTILINE)
 _DUMP = re.compile(r"\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t]*$", re.MULTILINE)
@@ -71,6 +72,12 @@ def _notation() -> Notation:
     return NOTATION
 
 
+def _standing(sources: Sequence[Source]) -> Standing:
+    from .standing import standing
+
+    return standing(sources)
+
+
 def _loading() -> Loader:
     from .loading import LOADER
 
@@ -92,4 +99,5 @@ DIALECT = Dialect(
     companions=_companions,
     aliases=("yaskawa", "motoman"),
     loading=_loading,
+    standing=_standing,
 )

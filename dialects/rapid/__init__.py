@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rpl.ir import Module, Program
     from rpl.ir.analog import AnalogPorts
     from rpl.ir.rules import Rules
+    from rpl.ir.standing import Standing
 
 
 def _recognise(path: str, text: str) -> int:
@@ -53,6 +54,12 @@ def _notation() -> Notation:
     return NOTATION
 
 
+def _standing(sources: Sequence[Source]) -> Standing:
+    from .standing import standing
+
+    return standing(sources)
+
+
 def _loading() -> Loader:
     from .loading import LOADER
 
@@ -72,4 +79,5 @@ DIALECT = Dialect(
     aliases=("abb",),
     analog_said=_analog_said,
     loading=_loading,
+    standing=_standing,
 )

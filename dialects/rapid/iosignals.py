@@ -27,8 +27,8 @@ def is_configuration(text: str) -> bool:
     return _HEADER.match(text) is not None
 
 
-def ranges(text: str) -> Iterator[AnalogPorts]:
-    """The analogue signals of a configuration whose range it says."""
+def signals_of(text: str) -> Iterator[dict[str, str]]:
+    """What the configuration says of each signal: its parameters by their names in small letters."""
     for at in _SECTION.finditer(text):
         if at[1].upper() != "EIO_SIGNAL":
             continue
@@ -36,10 +36,17 @@ def ranges(text: str) -> Iterator[AnalogPorts]:
         section = text[at.end() : following.start() if following else len(text)]
         for line in _CONTINUED.sub(" ", section).splitlines():
             values = {key.lower(): quoted or plain for key, quoted, plain in _VALUE.findall(line)}
-            kind = _KINDS.get(values.get("signaltype", "").lower())
-            found = _range(values) if kind and values.get("name") else None
-            if kind and found is not None:
-                yield AnalogPorts(kind, found, name=values["name"])
+            if values:
+                yield values
+
+
+def ranges(text: str) -> Iterator[AnalogPorts]:
+    """The analogue signals of a configuration whose range it says."""
+    for values in signals_of(text):
+        kind = _KINDS.get(values.get("signaltype", "").lower())
+        found = _range(values) if kind and values.get("name") else None
+        if kind and found is not None:
+            yield AnalogPorts(kind, found, name=values["name"])
 
 
 def _range(values: dict[str, str]) -> AnalogRange | None:

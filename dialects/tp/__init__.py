@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
     from rpl.ir import Module
     from rpl.ir.rules import Rules
+    from rpl.ir.standing import Standing
 
 _HEAD = re.compile(r"^[ \t\ufeff]*/PROG\b", re.MULTILINE)
 _BODY = re.compile(r"^[ \t]*/(?:MN|ATTR)\b", re.MULTILINE)
@@ -85,6 +86,12 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{_SIGNALS[kind]}[{number}]"
 
 
+def _standing(sources: Sequence[Source]) -> Standing:
+    from .standing import standing
+
+    return standing(sources)
+
+
 def _loading() -> Loader:
     from .loading import LOADER
 
@@ -105,4 +112,5 @@ DIALECT = Dialect(
     signal_name=_signal_name,
     aliases=("fanuc",),
     loading=_loading,
+    standing=_standing,
 )

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from rpl.ir.standing import NOTHING, Standing
 from rpl.writing.statements import CannotSayError
 
 from . import tables
@@ -41,6 +42,7 @@ class Cell:
     frames: dict[Values, int] = field(default_factory=dict)
     by_variable: dict[str, int] = field(default_factory=dict)
     last_tool: int = 0
+    there: Standing = NOTHING  # the controller's tools and frames in use are given to nothing else
     external: int = 0
     bases: int = 0
     copies: dict[tuple[str, str], set[str]] = field(default_factory=dict)  # job, taught data -> where its value stands
@@ -61,7 +63,8 @@ class Cell:
         if value == WORLD:
             return 0
         if value not in self.tools:
-            self.tools[value] = self._next_tool()
+            number = self.there.like("TL", value)
+            self.tools[value] = self._next_tool() if number is None else number
         return self.tools[value]
 
     def tool_in(self, place: str) -> int:
@@ -72,6 +75,8 @@ class Cell:
 
     def _next_tool(self) -> int:
         self.last_tool += 1
+        while self.last_tool in self.there.of("TL"):
+            self.last_tool += 1
         if self.last_tool > tables.TOOLS:
             raise CannotSayError(f"there are only {tables.TOOLS} tools")
         return self.last_tool
@@ -81,9 +86,13 @@ class Cell:
         if value == WORLD:
             return 0
         if value not in self.frames:
-            if len(self.frames) == tables.USER_FRAMES:
+            number = self.there.like("UF", value)
+            taken = {*self.frames.values(), *self.there.of("UF")}
+            free = (one for one in range(1, tables.USER_FRAMES + 1) if one not in taken)
+            self.frames[value] = next(free, 0) if number is None else number
+            if self.frames[value] == 0:
+                del self.frames[value]
                 raise CannotSayError(f"there are only {tables.USER_FRAMES} user frames")
-            self.frames[value] = len(self.frames) + 1
         return self.frames[value]
 
     def value_of_tool(self, number: int) -> Values | None:
@@ -98,9 +107,13 @@ class Cell:
     def setup(self) -> Iterator[tuple[str, tuple[int, ...]]]:
         """The instructions that give tools and frames their values, with the position variables in them."""
         for value, number in self.tools.items():
+            if ("TL", number) in self.there.poses:
+                continue  # the controller has it
             kept = self.keep(Kept(Position("pose", value)))
             yield f"SETTOOL TL#({number}) P{kept:03d}", (kept,)
         for value, number in self.frames.items():
+            if ("UF", number) in self.there.poses:
+                continue
             ways = (WORLD, (_ARM_MM, *WORLD[1:]), (0.0, _ARM_MM, *WORLD[2:]))
             points = tuple(self.keep(Kept(Position("pose", product(value, way)))) for way in ways)
             shown = " ".join(f"P{one:03d}" for one in points)

@@ -77,8 +77,8 @@ class _Writer:
     def __init__(self, program: ir.Program, context: WriteContext, ledger: EmissionLedger) -> None:
         self.program, self.context, self.ledger = program, context, ledger
         self.diagnostics = context.diagnostics
-        self.registers = Registers.of(program, context.register_names)
-        self.cell = Cell(self.registers)
+        self.registers = Registers.of(program, (*context.register_names, *context.there.numbers))
+        self.cell = Cell(self.registers, there=context.there)
         self.choose_axes()
         self.entries = _entries(program)
         self.constants = Constants.of(program, self.entries)

@@ -11,6 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.standing import NOTHING, Standing
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Bank
 from rpl.passes.fold import constant
@@ -36,13 +37,16 @@ class Numbers:
     constants: dict[int, tuple[float, ...]] = field(default_factory=dict)
     registers: dict[str, int] = field(default_factory=dict)
     own: set[int] = field(default_factory=set)  # those whose values the writer puts into the controller's table
+    there: Standing = NOTHING  # the controller's numbers in use are given to nothing else
 
     def of_constant(self, value: tuple[float, ...]) -> int:
         number = next((number for number, known in self.constants.items() if known == value), None)
         if number is None:
-            number = self._free()
+            number = self.there.like(self.word, value)
+            if number is None or number in self.constants:
+                number = self._free()
+                self.own.add(number)
             self.constants[number] = value
-            self.own.add(number)
         return number
 
     def of_register(self, register: str) -> int:
@@ -51,7 +55,7 @@ class Numbers:
         return self.registers[register]
 
     def _free(self) -> int:
-        taken = {*self.constants, *self.registers.values()}
+        taken = {*self.constants, *self.registers.values(), *self.there.of(self.word)}
         free = next((n for n in range(1, self.most + 1) if n not in taken), None)
         if free is None:
             raise CannotSayError(f"there are only {self.most} numbers for {self.word}")
@@ -89,6 +93,13 @@ class Frames:
             return self._line(numbers, "0"), "0"
         number = str(numbers.of_constant(pose))
         return self._line(numbers, number), number
+
+    def beside(self, there: Standing) -> None:
+        """Keep off the numbers that the controller has for something else; what it has alike is not put there anew."""
+        for one in (self.tools, self.frames):
+            one.there = there
+            alike = (number for number, value in one.constants.items() if there.like(one.word, value) == number)
+            one.own.difference_update(alike)
 
     def is_kept(self, register: str) -> bool:
         """Does the position register hold one value all the time?"""
@@ -138,6 +149,11 @@ class Frames:
             for number, value in numbers.constants.items()
             if number in numbers.own
         }
+
+    def poses(self) -> dict[tuple[str, int], tuple[float, ...]]:
+        """The constant values behind numbers, by word and number."""
+        both = (self.tools, self.frames)
+        return {(one.word, number): value for one in both for number, value in one.constants.items()}
 
     def declared(self, declaration: ir.Declaration, scope: Scope) -> None:
         """Take over the numbers of frames with values that the program declares."""

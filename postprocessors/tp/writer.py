@@ -12,6 +12,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.externalaxes import leading, used_externals
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE, Origin
+from rpl.writing.beside import report_poses
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
@@ -93,15 +94,18 @@ class _Writer:
         self.diagnostics = context.diagnostics
         self.scopes = ProgramScope(program)
         self.names = {**_labels_of_registers(program), **context.register_names}
+        in_use = {**context.there.numbers, **self.names}
         self.frames = Frames(
-            *highest_free_registers(program, self.names),
+            *highest_free_registers(program, in_use),
             kept=kept_registers(program),
             moved_to=moved_to_only(program),
-            free=free_numbers(program, self.names, tables.R),
+            free=free_numbers(program, in_use, tables.R),
         )
         for module in program.modules:
             for one in module.declarations:
                 self.frames.declared(one, self.scopes.module(module))
+        self.frames.beside(context.there)
+        report_poses(self.frames.poses(), context.there, self.diagnostics)
         self.entries = _entries(program)
         self.monitors = monitors_of(program)
         self.quiet, self.steady = quiet_routines(program)

@@ -62,6 +62,13 @@ OK, NO, GUARDED = 0, 1, 3
 @click.option("--prove", "proving", is_flag=True, help="Run both programs and compare what they do.")
 @click.option("--cell", metavar="F.toml", help="Values of data that the controller keeps; surroundings for the proof.")
 @click.option(
+    "--target-backup",
+    "backup",
+    type=click.Path(exists=True, path_type=Path),
+    metavar="PATH",
+    help="Backup of the robot that will run the result (file, folder, archive): its names and numbers are respected.",
+)
+@click.option(
     "--map",
     "chosen",
     type=click.Path(dir_okay=False, path_type=Path),
@@ -127,7 +134,7 @@ def command(
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
-        translation = _translated(read, target, arms, diagnostics, earlier, own, around, house)
+        translation = _translated(read, target, arms, diagnostics, earlier, about.pop("backup"), own, around, house)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
@@ -173,10 +180,13 @@ def _translated(
     arms: tuple[str | None, str | None],
     diagnostics: Diagnostics,
     earlier: NameMap,
+    backup: Path | None,
     own: Mapping[str, str],
     around: Cell | None,
     house: Mapping[str, str] | None,
 ) -> Translation:
+    from rpl.ir.standing import NOTHING
+    from rpl.standing import read_standing
     from rpl.translation import translate_program
 
     return translate_program(
@@ -190,6 +200,7 @@ def _translated(
         mechanisms=around.mechanisms if around is not None else (),
         analog=around.analog if around is not None else (),
         templates=house,
+        there=read_standing(backup, target) if backup is not None else NOTHING,
     )
 
 

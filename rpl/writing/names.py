@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -19,15 +19,24 @@ NO_MAP = NameMap()
 
 
 def rename(
-    program: ir.Program, rules: NameRules, earlier: NameMap = NO_MAP, hiding: Mapping[str, str] = MappingProxyType({})
+    program: ir.Program,
+    rules: NameRules,
+    earlier: NameMap = NO_MAP,
+    hiding: Mapping[str, str] = MappingProxyType({}),
+    taken: Collection[str] = (),
+    numbered: bool = False,
 ) -> tuple[ir.Program, dict[str, str]]:
     """The program with names that the target accepts, and source name -> new name of those that changed. `earlier`: a
-    map whose names are kept; `hiding`: what `rename_hiding` has renamed. Raises UsageError for a name of the map that
-    the target does not accept."""
+    map whose names are kept; `hiding`: what `rename_hiding` has renamed; `taken`: names (folded) that the controller
+    has for something else; `numbered`: of the program it knows routines alone. Raises UsageError for a name of the map
+    that the target does not accept."""
     collector = _Collector()
     collector.program(program)
     started = _started(program, collector) if rules.started_as_module else {}
     pinned = _pinned(collector, rules, earlier, hiding, frozenset(started))
+    if taken:
+        shared = (name for name in shared_names(program, numbered) if name not in started)
+        pinned = _apart(shared, collector, rules, pinned, taken)
     mangler = NameMangler(rules, collector.names, routines=collector.routines, pinned=pinned)
     changed = mangler.renamed()
     changed |= {name: changed.get(module, module) for name, module in started.items()}
@@ -95,6 +104,37 @@ def _pinned(
             raise earlier.complaint("names", old, f"{new!r} is the name of {other} too: give one of them another")
         found[name] = new
     return found
+
+
+def _apart(
+    shared: Iterator[str], collector: _Collector, rules: NameRules, pinned: dict[str, str], taken: Collection[str]
+) -> dict[str, str]:
+    """`pinned` with other names for what all programs of the controller would know by a name that is taken there."""
+    here = NameMangler(rules, collector.names, routines=collector.routines, pinned=pinned)
+    used = {*taken, *(here.name(name).lower() for name in collector.names)}
+    mine = {name.lower() for name in pinned}
+    found = dict(pinned)
+    for name in dict.fromkeys(shared):
+        new = here.name(name)
+        if name.lower() in mine or new.lower() not in taken or new.lower().startswith("rpl_"):
+            continue
+        longest = rules.longest_routine or rules.longest if name in collector.routines else rules.longest
+        tails = (f"_{number}" if "_" in rules.further else str(number) for number in range(2, len(used) + 3))
+        found[name] = next(one for tail in tails if (one := new[: longest - len(tail)] + tail).lower() not in used)
+        used.add(found[name].lower())
+    return found
+
+
+def shared_names(program: ir.Program, numbered: bool) -> Iterator[str]:
+    """Modules, routines and data that all programs of a controller know."""
+    for module in program.modules:
+        if not numbered:
+            yield module.name
+        for routine in module.routines:
+            yield routine.name
+        for declaration in module.declarations:
+            if isinstance(declaration, ir.Variable) and not numbered:
+                yield declaration.name
 
 
 def named(program: ir.Program, renamed: Mapping[str, str], numbered: bool) -> dict[str, str]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from rpl.diagnostics import Diagnostics
+from rpl.ir.standing import NOTHING, Standing
 from rpl.passes.capabilities import Capabilities, NameRules
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ class OutputFile:
 class WriteContext:
     """What a writer is given: the collector, the arm that will run the program (None when none is named), the target's
     own options (such as `version`), the source names of data in numbered banks by (bank, number), whether the program
-    comes from another language, and a plant's own template files for this target, path -> text."""
+    comes from another language, a plant's own template files for this target, path -> text, and what stands on the
+    robot that will run it."""
 
     diagnostics: Diagnostics
     robot: RobotModel | None = None
@@ -33,6 +35,7 @@ class WriteContext:
     register_names: Mapping[tuple[str, int], str] = field(default_factory=dict)
     foreign: bool = True
     templates: Mapping[str, str] = field(default_factory=dict)
+    there: Standing = NOTHING
 
 
 __all__ = ["Capabilities", "NameRules", "OutputFile", "WriteContext"]

@@ -15,7 +15,7 @@ LEVELS = [
     ["cli"],
     ["api"],
     ["proof", "fitting"],
-    ["project", "translation", "simulation", "report", "housestyle"],
+    ["project", "translation", "simulation", "standing", "report", "housestyle"],
     ["sidefiles", "archives"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],

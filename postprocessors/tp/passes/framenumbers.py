@@ -145,13 +145,23 @@ def _numbered(name: str, found: Mapping[Key, rigid.Pose], changing: int, context
     """`changing`: as many numbers are left for what the run decides, and one for the flange."""
     bank, most = tables.SELECTED[name]
     earlier = {label: number for (kind, number), label in context.registers.items() if kind == bank}
-    wanted = {key: earlier.get(_label(key), _own_number(key)) for key in found}
+    there = context.there
+    mine = {number for kind, number in context.registers if kind == bank}
+    in_use = there.of(bank) - mine
+    wanted = {
+        key: earlier.get(_label(key)) or there.like(bank, _values(pose)) or _own_number(key)
+        for key, pose in found.items()
+    }
     table = _Table()
     for key in sorted(found, key=lambda one: not wanted[one]):
         if len(table.values) >= most - 1 - changing:
             break
-        free = (number for number in (wanted[key], *range(1, most + 1)) if number and number not in table.values)
+        own = wanted[key] not in in_use or there.like(bank, _values(found[key])) == wanted[key]
+        others = (number for number in range(1, most + 1) if number not in in_use)
+        free = (number for number in (wanted[key] if own else 0, *others) if number and number not in table.values)
         number = next((one for one in free if one <= most), 0)
+        if not number:
+            break
         table.numbers[key], table.values[number] = number, found[key]
         context.register_names[bank, number] = _label(key)
     return table
@@ -200,10 +210,13 @@ def _value(name: str, number: int, pose: rigid.Pose) -> ir.Initialise:
     return ir.Initialise(ir.Assign(element(name, number), _pose(pose)))
 
 
-def _pose(pose: rigid.Pose) -> ir.Aggregate:
+def _values(pose: rigid.Pose) -> tuple[float, ...]:
     place = pose.position
-    values = (place.x, place.y, place.z, *pose.rotation.zyx)
-    parts = zip(ir.POSE, values, strict=True)
+    return (place.x, place.y, place.z, *pose.rotation.zyx)
+
+
+def _pose(pose: rigid.Pose) -> ir.Aggregate:
+    parts = zip(ir.POSE, _values(pose), strict=True)
     return ir.Aggregate(tuple((part, ir.RealLiteral(value + 0.0)) for part, value in parts), type_name="pose")
 
 

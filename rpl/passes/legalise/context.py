@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.columns import Stretch
+from rpl.ir.standing import NOTHING, Standing
 from rpl.passes.analog import AnalogRanges
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
@@ -72,7 +73,7 @@ class Context:
     had a name and are written by their numbers, and signals of a number that are written by their names.
     `signal_names`: the names of numbered signals, (kind, number) -> name. `analog`: what
     is said of analogue signals, by language. `stretches`: of runs, for each of which one move stands in the program;
-    `before`: the reports that were there in front of the passes."""
+    `before`: the reports that were there in front of the passes. `there`: what stands on the robot that will run it."""
 
     source: str
     target: str
@@ -89,6 +90,7 @@ class Context:
     analog: Mapping[str, AnalogRanges] = field(default_factory=dict)
     stretches: tuple[Stretch, ...] = ()
     before: int = 0
+    there: Standing = NOTHING
 
     @property
     def foreign(self) -> bool:

@@ -225,8 +225,9 @@ class _Named:
         return rewrite_parts(expression, self.expression)
 
     def name_of(self, kind: str, number: int) -> str:
-        """What the signal is called: in the map of an earlier translation, in the source, else by its number."""
-        said = self.context.registers.get((kind, number))
+        """What the signal is called: in the map of an earlier translation, on the robot that will run the program, in
+        the source, else by its number."""
+        said = self.context.registers.get((kind, number)) or self.context.there.signals.get((kind, number))
         name = said or self.aliases.get((kind, number)) or f"{self.prefixes.get(kind, kind)}{number}"
         if said:
             self.context.signal_groups.setdefault(name, ir.Signal(kind, ir.IntLiteral(number)))
@@ -334,7 +335,10 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
     widest = context.capabilities.io.widest_group
     own = rules_of(context.source).group_bits
     widths = group_widths(program, known, widest, WIDTH if alone else widest, own)
-    earlier = {(kind, name.lower()): number for (kind, number), name in context.registers.items()}
+    earlier = {(kind, name.lower()): at for (kind, at), name in context.there.signals.items() if name}
+    earlier |= {(kind, name.lower()): number for (kind, number), name in context.registers.items()}
+    for kind, number in context.there.signals:
+        used.setdefault(_bits(kind) if alone else kind, set()).add(number)
     numbers = _numbers(names, prefixes, used, alone, {key: bits for key, (bits, _) in widths.items()}, earlier)
     declared, aliases = _chosen(context, names, numbers, widths, alone)
 
@@ -376,7 +380,9 @@ def _chosen(
             signal = _signal(kind, number, alone, bits)
             declared.append(ir.SignalDeclaration(alias, signal, scope="global"))
             last = signal.last.value if isinstance(signal.last, ir.IntLiteral) else number
-            context.diagnostics.report(NUMBERED, name=name, number=number if last == number else f"{number} to {last}")
+            if context.there.signals.get((kind, number), "").lower() != key:  # there it is wired already
+                said = number if last == number else f"{number} to {last}"
+                context.diagnostics.report(NUMBERED, name=name, number=said)
             if not fits:
                 context.diagnostics.report(TOO_NARROW, name=name, bits=bits, most=(1 << bits) - 1)
     return declared, aliases

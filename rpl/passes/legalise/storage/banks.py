@@ -91,6 +91,9 @@ class Numbers:
         for (bank, number), name in self.context.registers.items():
             self.earlier.setdefault((bank, name.lower()), number)
             self.earlier[bank, name] = number  # where capitals tell names apart
+        for at in self.context.there.numbers:
+            if at not in self.context.registers:  # a number of the map is the program's own
+                self.used.setdefault(at[0], set()).add(at[1])
 
     def plan(self, wanted: Sequence[Wanted]) -> dict[int, int]:
         """id of a declaration -> its (first) number; what gets none is missing."""
