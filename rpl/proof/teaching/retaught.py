@@ -96,6 +96,8 @@ class _Teacher:
         self.difference: Difference | None = None
         self.moves: dict[Datum, Moved] = {}
         self.together: list[str] = []
+        self.before = Record("", 0.0, {}, {})
+        self.stands = (Stand(runs.robot_a), Stand(runs.robot_b))
 
     def result(self) -> Retaught:
         unreached = _unreached(self.runs.program_a, self.ours, self.base.reach_a)
@@ -104,14 +106,15 @@ class _Teacher:
         if matched:
             record = self.runs.run_a(self.runs.program_a, self.runs.cell_a)
             other = self.runs.run_b(self.runs.program_b, self.runs.cell_b)
-            stands = (
+            self.before = record
+            self.stands = (
                 stand_of(self.runs.program_a, record, self.ours, self.runs.robot_a),
                 stand_of(self.runs.program_b, other, self.theirs, self.runs.robot_b),
             )
             # Places are taught with the posture that the arm has there, so frames are taught at another time.
             for kinds in ((POINT, NUMBER), (TOOL, FRAME)):
                 some = [one for one in matched if one.kind in kinds]
-                self._choose(some, record, stands)
+                self._choose(some)
                 some = [one for one in some if one in self.moves]
                 without = self._without_effect(record, some)
                 unreached |= without
@@ -123,18 +126,18 @@ class _Teacher:
 
     # ---- how far
 
-    def _choose(self, data: Sequence[Datum], record: Record, stands: tuple[Stand, Stand]) -> None:
+    def _choose(self, data: Sequence[Datum]) -> None:
         """Amounts with which A runs as it did: of all, else of each by itself. What cannot be moved has none."""
-        if data and not self._chosen(data, record, stands) and len(data) > 1:
+        if data and not self._chosen(data) and len(data) > 1:
             for one in data:
-                self._chosen([one], record, stands)
+                self._chosen([one])
 
-    def _chosen(self, data: Sequence[Datum], record: Record, stands: tuple[Stand, Stand]) -> bool:
+    def _chosen(self, data: Sequence[Datum]) -> bool:
         for number, (factor, level) in enumerate(_TRIES):
             seed, amount = f"{self.asked.seed} {number}", self.asked.amount.times(factor)
-            found = {one: moved(one, self.pairs[one], *stands, amount, seed, level) for one in data}
+            found = {one: moved(one, self.pairs[one], *self.stands, amount, seed, level) for one in data}
             moves = {one: move for one, move in found.items() if move is not None}
-            if amount.is_none or _same_way(record, self._run_a(moves.values())):
+            if amount.is_none or _same_way(self.before, self._run_a(moves.values())):
                 self.moves |= moves
                 return True
         return False
@@ -150,12 +153,15 @@ class _Teacher:
 
     # ---- proving again
 
-    def _proved(self, data: Sequence[Datum]) -> ProofResult:
+    def _proved(self, data: Sequence[Datum]) -> ProofResult | None:
+        """The proof with these data moved; None where A does not run as it did, which tells nothing about B."""
         self.count += 1
         new_a = {one: self.moves[one].taught for one in data}
         new_b: dict[Datum, Taught] = {copy: taught for one in data for copy, taught in self.moves[one].copies}
         first, second = with_taught(self.runs.program_a, new_a), with_taught(self.runs.program_b, new_b)
         record_a = self.runs.run_a(first, self.runs.cell_a)
+        if not self.asked.amount.is_none and not _same_way(self.before, record_a):
+            return None
         record_b = self.runs.run_b(second, self.runs.cell_b)
         return self.runs.compare(record_a, record_b, first, second)
 
@@ -163,15 +169,19 @@ class _Teacher:
         """The data that do not mean the same when they are taught anew, and why."""
         if not data or self.count >= _MOST_RUNS:
             return {}
-        result = self._proved(data)
-        reason = _worse(self.base, result)
-        if not reason:
+        half, result = len(data) // 2, self._proved(data)
+        if result is None and not half:  # it went with the others only: an amount of its own
+            result = self._proved(data) if self._chosen(data) else None
+            if result is None:
+                del self.moves[data[0]]
+                return {}
+        reason = _worse(self.base, result) if result is not None else ""
+        if result is not None and not reason:
             return {}
-        half = len(data) // 2
         found = self._failing(data[:half]) | self._failing(data[half:]) if half else {data[0]: reason}
-        if not found:
+        if not found and reason:
             self.together.append(f"{', '.join(one.name for one in data)}: {reason}")
-        if self.difference is None and result.difference is not None:
+        if self.difference is None and result is not None and result.difference is not None:
             names = ", ".join(one.name for one in data)
             text = f"re-taught {names}: {result.difference.explanation}"
             self.difference = replace(result.difference, explanation=text)
