@@ -19,8 +19,8 @@ TCD:  STACK_SIZE	= 0,
 DEFAULT_GROUP	= 1,*,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
-   1:  !Calculations that check themselves ;
-   2:  !each output is on when its line is right ;
+   1:  !calculations check themselves ;
+   2:  !output on: its line is right ;
    3:  R[1:one]=7 ;
    4:  R[2:two]=2 ;
    5:  R[3:result]=R[1]/R[2] ;

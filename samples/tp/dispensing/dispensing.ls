@@ -19,7 +19,7 @@ TCD:  STACK_SIZE	= 0,
 DEFAULT_GROUP	= 1,*,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
-   1:  !A bead of glue around a plate: DO 1 gun, DO 2 corner, DO 3 done ;
+   1:  !glue: DO 1 gun 2 corner 3 done ;
    2:  UFRAME_NUM=2 ;
    3:  UTOOL_NUM=2 ;
    4:J P[1:home] 60% FINE ;

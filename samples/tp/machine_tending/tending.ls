@@ -19,9 +19,9 @@ TCD:  STACK_SIZE	= 0,
 DEFAULT_GROUP	= 1,*,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
-   1:  !Loads a machine; every answer of it has a time limit ;
-   2:  !DI 1 door open, 2 idle, 3 clamped, 4 cycle finished ;
-   3:  !DO 1 open door, 2 may close, 3 gripper, 4 clamp, 5 start, 10 alarm ;
+   1:  !loads a machine, with limits ;
+   2:  !DI 1 open 2 idle 3 clamped 4 end ;
+   3:  !DO 1 door 3 grip 4 clamp 5 start ;
    4:  UFRAME_NUM=0 ;
    5:  UTOOL_NUM=1 ;
    6:  DO[10:alarm]=OFF ;

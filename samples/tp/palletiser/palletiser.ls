@@ -19,8 +19,8 @@ TCD:  STACK_SIZE	= 0,
 DEFAULT_GROUP	= 1,*,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
-   1:  !Stacks nine boxes on a pallet of 2 x 2 places in 2 layers ;
-   2:  !output 8 tells that a pallet is full ;
+   1:  !nine boxes, 2 x 2 in two layers ;
+   2:  !output 8: the pallet is full ;
    3:  UFRAME_NUM=0 ;
    4:  UTOOL_NUM=1 ;
    5:  DO[1:vacuum]=OFF ;
@@ -33,7 +33,7 @@ CONTROL_CODE	= 00000000 00000000;
   12:  R[1]=R[1]+1 ;
   13:  R[2]=R[2]+1 ;
   14:  IF (R[2]=8) THEN ;
-  15:  !the operator takes the pallet away ;
+  15:  !the pallet is taken away ;
   16:J P[1] 80% FINE ;
   17:  DO[8:full]=ON ;
   18:  WAIT   1.00(sec) ;

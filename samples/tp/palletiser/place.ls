@@ -19,7 +19,7 @@ TCD:  STACK_SIZE	= 0,
 DEFAULT_GROUP	= 1,*,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
-   1:  !Place R[2] counted from 0: column, row, layer ;
+   1:  !place R[2]: column, row, layer ;
    2:  R[3:layer]=R[2:place] DIV 4 ;
    3:  R[4:rest]=R[2]-R[3]*4 ;
    4:  R[5:row]=R[4] DIV 2 ;

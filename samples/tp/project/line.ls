@@ -19,7 +19,7 @@ TCD:  STACK_SIZE	= 0,
 DEFAULT_GROUP	= 1,*,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
-   1:  !Feeds three stations, one after the other ;
+   1:  !feeds three stations in turn ;
    2:  UFRAME_NUM=0 ;
    3:  UTOOL_NUM=1 ;
    4:J PR[1:home] 80% FINE ;

@@ -19,7 +19,7 @@ TCD:  STACK_SIZE	= 0,
 DEFAULT_GROUP	= 1,*,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
-   1:  !Down until the sensor sees the part ;
+   1:  !down until the sensor sees it ;
    2:  R[20:found]=0 ;
    3:L P[1:above] 400mm/sec FINE ;
    4:  SKIP CONDITION DI[5:sensor]=ON ;

@@ -20,8 +20,8 @@ DEFAULT_GROUP	= 1,1,*,*,*;
 CONTROL_CODE	= 00000000 00000000;
 /MN
    1:  !A seam on a plate that group 2 ;
-   2:  !turns: DO 1 torch, DO 2 half way, ;
-   3:  !DO 3 on the seam's end, DO 4 home ;
+   2:  !turns: DO 1 torch, 2 half way, ;
+   3:  !DO 3 end of the seam, 4 home ;
    4:  UFRAME_NUM=0 ;
    5:  UTOOL_NUM=1 ;
    6:J P[1:home] 40% FINE ;
@@ -35,7 +35,7 @@ CONTROL_CODE	= 00000000 00000000;
   14:  PR[1:here]=LPOS ;
   15:  R[1]=PR[1,1]-900 ;
   16:  IF (R[1]<.01 AND R[1]>(-.01)),DO[3:in place]=ON ;
-  17:  !back to the start of the same seam, through the middle of the plate's rim ;
+  17:  !back to the start of the seam ;
   18:C P[5]    
     :  P[3] 100mm/sec FINE COORD    ;
   19:L P[2] 200mm/sec CNT50 ;
