@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from rpl.passes.legalise.source.cyclicflags import cyclic_flags
 from rpl.passes.legalise.source.emptyreactions import without_empty_reactions
+from rpl.passes.legalise.source.fixeddata import fixed_data
 from rpl.passes.legalise.source.grownarrays import grown_arrays
 from rpl.passes.legalise.source.keptvalues import kept_values_known
 from rpl.passes.legalise.source.loadreadings import load_readings
@@ -50,6 +51,7 @@ STAGE = Stage(
     "source",
     (
         kept_values_known,
+        fixed_data,
         names_of_local_routines,
         source_layout,
         drop_untyped,
