@@ -18,6 +18,7 @@ helpers      names that what was written declares, a move of the source: neither
 code         code lines of all program files written / code lines of the source, data apart.
 points       taught points (data or numbered points with constant values that a move goes to) of what was written / of
              the source; at most 1.
+rules        rules of the target's loader (docs/loading.md) that what was written breaks, each rule once.
 reports      reports of the translation there (errors, losses, warnings) / different kinds of them.
 seconds      time of the translation there.
 
@@ -50,7 +51,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import RplError
 from rpl.ir.walk import walk
-from rpl.project import ReadProgram, read_program, read_sources
+from rpl.project import ReadProgram, check_loading, read_program, read_sources
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
 
@@ -89,9 +90,11 @@ class Row:
     helpers: float | None = None
     code: float | None = None
     points: float | None = None
+    rules: float | None = None
     reports: float | None = None
     seconds: float | None = None
     names: tuple[str, ...] = ()
+    broken: tuple[str, ...] = ()
     lost: tuple[str, ...] = field(default=())
 
 
@@ -102,6 +105,7 @@ FIGURES = (
     ("helpers", "helpers a move", False),
     ("code", "code out/in", False),
     ("points", "points kept", True),
+    ("rules", "rules broken", False),
     ("reports", "reports a kind", False),
     ("seconds", "seconds", False),
 )
@@ -177,6 +181,7 @@ def _row(shown: str, read: ReadProgram, target: str, robot: str) -> Row:
     after = _lines(source, [(file.path, source_from_bytes(file.path, file.data).text) for file in back.files])
     between = _lines(target, [(one.path, one.text) for one in sources])
     names = helper_names(read, there, again, target)
+    broken = _broken(again)
     moves = _moves(read.program)
     told = [item.code.name for item in diagnostics if item.severity in _TOLD]
     here, kept = Counter(before.code), Counter(after.code)
@@ -190,11 +195,20 @@ def _row(shown: str, read: ReadProgram, target: str, robot: str) -> Row:
         helpers=_share(len(names), moves),
         code=_share(len(between.code), len(before.code)),
         points=_share(min(points, len(_taught(again.program))), points),
+        rules=len(broken),
         reports=_share(len(told), len(set(told))),
         seconds=seconds,
         names=tuple(names),
+        broken=broken,
         lost=tuple((here - kept).elements())[:40],
     )
+
+
+def _broken(written: ReadProgram) -> tuple[str, ...]:
+    """The loading rules that what was written breaks."""
+    found = Diagnostics()
+    check_loading(written, found)
+    return tuple(sorted({item.code.name for item in found}))
 
 
 def _share(part: float, whole: float) -> float | None:
@@ -291,6 +305,7 @@ def worst(rows: Sequence[Row]) -> list[str]:
         having.sort(key=lambda one: one[0], reverse=not more)
         for value, row in having[:_WORST]:
             lines.append(f"{title} {value:.2f}: {row.program} ({row.source} -> {row.target})")
+    lines += [f"{', '.join(row.broken)}: {row.program} ({row.source} -> {row.target})" for row in rows if row.broken]
     lines += [f"failed: {row.program} ({row.source} -> {row.target}): {row.failed}" for row in rows if row.failed]
     return lines
 
