@@ -23,6 +23,7 @@ _KEYS = ("target", "names", "numbers")
 _HEAD = """# What this translation has named and numbered. `rpl translate --map` of this file keeps all of it.
 # Write another name or number to choose it; delete a line to have it chosen anew.
 """
+_SHOWN = 60  # signs of a key in a complaint
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _NUMBER = re.compile(r"0|[1-9][0-9]{0,8}")  # no bank has more than a few thousand
 
@@ -164,6 +165,7 @@ def _quoted(text: str) -> str:
 
 def _complaint(path: str, text: str, table: str, key: str, reason: str) -> UsageError:
     line = _line(text, table, key)
+    key = key if len(key) <= _SHOWN else f"{key[:_SHOWN]}..."
     return UsageError(f"{path}:{line}: {key}: {reason}" if line else f"{path}: {key}: {reason}")
 
 

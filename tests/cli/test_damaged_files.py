@@ -237,7 +237,7 @@ def test_zero_bytes_far_behind_the_beginning_are_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["translate", "main.src", "--to", "tp", "--registers"],
+        ["translate", "main.src", "--to", "tp", "--map"],
         ["prove", "--check"],
         ["fk", "--robot", "ur5e", "--points"],
         ["fk", "--joints", "0,0,0,0,0,0", "--robot"],
@@ -260,6 +260,7 @@ def test_no_command_waits_for_a_pipe_or_reads_a_device(
 
 
 LONG_CELL = "x" * 200_000
+TO_TP = ["translate", "main.src", "--to", "tp", "--map"]
 JOINTS = "j1,j2,j3,j4,j5,j6\n"
 
 
@@ -268,18 +269,9 @@ JOINTS = "j1,j2,j3,j4,j5,j6\n"
     [
         (["fk", "--robot", "ur5e", "--points"], f"j1,j2,j3,j4,j5,j6,n\n0,0,0,0,0,0,{LONG_CELL}\n", "x.csv:2: field"),
         (["fit", "--robot", "ur5e"], f"time,j1,j2,j3,j4,j5,j6,n\n0,0,0,0,0,0,0,{LONG_CELL}\n", "x.csv:2: field"),
-        (
-            ["translate", "main.src", "--to", "tp", "--registers"],
-            f"bank,number,name\nR,1,{LONG_CELL}\n",
-            "x.csv:2: fie",
-        ),
-        (
-            ["translate", "main.src", "--to", "tp", "--registers"],
-            f"bank,number,name\nR,{'9' * 5000},a\n",
-            "x.csv:2: a l",
-        ),
-        (["translate", "main.src", "--to", "tp", "--registers"], "bank,number,name\nR,\u00b2,a\n", "x.csv:2: a line"),
-        (["translate", "main.src", "--to", "tp", "--registers"], b"bank,number,name\nR,1,\xff\n", "no text in UTF-8"),
+        (TO_TP, f'target = "tp"\n[numbers.R]\n{"9" * 5000} = "a"\n', "x.csv:3: 999"),
+        (TO_TP, 'target = "tp"\n[numbers.R]\n"\u00b2" = "a"\n', "x.csv:3: \u00b2: a line"),
+        (TO_TP, b'target = "tp"\n\xff\n', "no text in UTF-8"),
         (["fk", "--robot", "ur5e", "--points"], f"{JOINTS}0,0,0,0,0,{'9' * 400}\n", "a number is needed"),
         (["fk", "--robot", "ur5e", "--points"], JOINTS + "0,0,0,0,0,1e300\n", "beyond 1,000,000, a number is needed"),
     ],
