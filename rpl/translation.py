@@ -26,6 +26,7 @@ from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
 from rpl.writing.beside import report_beside
+from rpl.writing.entries import first_routine, name_entry, unpinned
 from rpl.writing.lineorigins import LineOrigins, line_origins
 from rpl.writing.namemap import NameMap, check_map
 from rpl.writing.names import NO_MAP, named, rename, rename_hiding, renamed_twice
@@ -185,13 +186,16 @@ def _translated(
     if source != target_name:
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
+        first = first_routine(whole) if capabilities.names.entry else None
+        kept = unpinned(earlier, capabilities.names)
         legal_program = legalise(whole, context, target.passes())
         taken, numbered = frozenset(context.there.names), bool(capabilities.storage.banks)
-        program, legal = rename(legal_program, capabilities.names, earlier, hiding, taken, numbered)
-        apart = _apart(legal, rename(legal_program, capabilities.names, earlier, hiding)[1]) if taken else {}
+        program, legal = rename(legal_program, capabilities.names, kept, hiding, taken, numbered)
+        apart = _apart(legal, rename(legal_program, capabilities.names, kept, hiding)[1]) if taken else {}
+        program, begun = name_entry(program, legal.get(first, first) if first else None, capabilities.names, taken)
         program = settled(program, context.stretches, collector.items[before:])
         program = program if target.rows else expanded(program)
-        renamed = renamed_twice(hiding, legal)
+        renamed = renamed_twice(renamed_twice(hiding, legal), begun)
     else:
         program = legalise(whole, context)
     legalised = len(collector)

@@ -20,6 +20,11 @@ from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import Translation, translate_program
 
 
+def entry_of(written: Translation, entry: str) -> str:
+    """What the routine is called in a translation, whatever letters it is asked for in."""
+    return next((new for old, new in written.renamed.items() if old.lower() == entry.lower()), entry)
+
+
 @dataclass(frozen=True, slots=True)
 class Journey:
     """A program, what was written, and what the target's reader made of it. `found`: of reading and of writing."""
@@ -49,12 +54,12 @@ class Journey:
         """Run what was read back: from the routine that the source calls `entry`, in surroundings that are described in
         the words of the source; driven as proofs drive both, by constant accelerations."""
         theirs = in_words_of(cell, self.source.program, self.program) if cell is not None else None
-        begins = self.written.renamed.get(entry, entry)
+        begins = entry_of(self.written, entry)
         return run_program(self.program, self.robot, theirs, begins, limit_s, controller="plain")
 
     def prove(self, entry: str = "main", accepted: Accepted = NOTHING_ACCEPTED) -> ProofResult:
         """Do the source and what was read back mean the same?"""
-        to_entry = self.written.renamed.get(entry, entry)
+        to_entry = entry_of(self.written, entry)
         source, back = self.source.program, self.program
         return prove_programs(source, back, self.robot, entry=entry, to_entry=to_entry, accepted=accepted)
 

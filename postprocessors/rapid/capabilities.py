@@ -51,7 +51,7 @@ CAPABILITIES = Capabilities(
     ),
     operators=OPERATORS,
     types=frozenset(type.__name__ for type in TYPE_NAMES),
-    names=NameRules(32, False, RESERVED, predefined=PREDEFINED),
+    names=NameRules(32, False, RESERVED, predefined=PREDEFINED, entry="main"),
     conversions=frozenset(("real", "round_half_away", "trunc", "truth", "code", "char")),
     places=Places(notation="rapid", rotation=Rotation.QUATERNION),
     motion=Motion(concurrent=Concurrent.MOVES, turned_ways=frozenset(), paths=frozenset()),

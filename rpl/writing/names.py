@@ -164,6 +164,13 @@ def _inner(module: ir.Module) -> tuple[ir.Declaration, ...]:
     return tuple(one for routine in module.routines for one in routine.declarations)
 
 
+def renamed_routine(program: ir.Program, name: str, new: str) -> ir.Program:
+    """The program with another name for that routine; a module of the same name keeps it."""
+    done = _Renamer({name.lower(): new}, set(), set(), ProgramScope(program)).program(program)
+    pairs = zip(done.modules, program.modules, strict=True)
+    return replace(done, modules=tuple(replace(one, name=old.name) for one, old in pairs))
+
+
 def renamed_twice(first: Mapping[str, str], second: Mapping[str, str]) -> dict[str, str]:
     """Source name -> last name of what was renamed in one of two steps or in both."""
     between = set(first.values())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from there_and_back import entry_of
 
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
@@ -102,7 +103,7 @@ def translated(body: str, target: str) -> list[str]:
     written = translate_program(read, target, KUKA, None, told)
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, again)
     assert not [item.as_text() for item in again.of(Severity.ERROR)]
-    result = prove_programs(read.program, back.program, KUKA, entry="JOB", to_entry=entry_name(back.program, "JOB"))
+    result = prove_programs(read.program, back.program, KUKA, entry="JOB", to_entry=entry_of(written, "JOB"))
     assert result.agrees, result.as_text()
     return [item.as_text() for item in told.of(Severity.LOSS)]
 

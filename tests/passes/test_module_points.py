@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from there_and_back import entry_of
 
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
@@ -48,11 +49,12 @@ ARM = "fanuc_lrmate200id"
 @pytest.mark.parametrize("target", PLACES)
 def test_they_are_data_of_the_module(target: str) -> None:
     own = read_sources([source_from_text("pick.ls", source("PICK")), tool_one()], "tp", Diagnostics())
-    files = translate_program(own, target, ARM, None, Diagnostics()).files
+    translation = translate_program(own, target, ARM, None, Diagnostics())
+    files = translation.files
     written = "\n".join(file.data.decode("latin-1") for file in files)
     assert all(one in written for one in PLACES[target]), written
     back = read_sources([source_from_bytes(f.path, f.data) for f in files], target, Diagnostics())
-    result = run_program(back.program, load_robot(ARM), entry="PICK")
+    result = run_program(back.program, load_robot(ARM), entry=entry_of(translation, "PICK"))
     assert result.status == "finished", result.fault
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from there_and_back import entry_of
 
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.project import read_sources
 from rpl.proof.prove import prove_programs
-from rpl.simulation import entry_name
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
 
@@ -42,5 +42,5 @@ def test_numbers_are_read_from_a_text(target: str) -> None:
     assert not [item.as_text() for item in told.of(Severity.LOSS) if item.code.name != "tp-text-case"]
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, again)
     assert not [item.as_text() for item in again.of(Severity.ERROR)]
-    result = prove_programs(read.program, back.program, KUKA, entry="JOB", to_entry=entry_name(back.program, "JOB"))
+    result = prove_programs(read.program, back.program, KUKA, entry="JOB", to_entry=entry_of(written, "JOB"))
     assert result.agrees, result.as_text()

@@ -68,3 +68,63 @@ def test_a_tool_that_the_run_decides_is_a_variable() -> None:
     lines = ("IF $IN[1] THEN", "$TOOL=GRIPPER", "ELSE", "$TOOL=$NULLFRAME", "ENDIF", "LIN XP")
     text, _ = written(HOME, *lines)
     assert moves(text)[-1].endswith(",fine,tCurrent;") and text.count("tCurrent.tframe:=") == 2, text
+
+
+CONFIG = """DEFDAT $CONFIG PUBLIC
+TOOL_DATA[1]={X 0,Y 0,Z 150,A 0,B 0,C 0}
+TOOL_NAME[1,]="vacuum cup"
+BASE_DATA[2]={X 350,Y 150,Z 20,A 0,B 0,C 0}
+BASE_DATA[5]={X 300,Y 0,Z 0,A 0,B 0,C 0}
+ENDDAT
+"""
+
+
+def test_numbered_tools_and_frames_have_their_names_or_numbers() -> None:
+    lines = ("DEF m()", "$TOOL=TOOL_DATA[1]", "$BASE=BASE_DATA[2]", HOME, "$VEL.CP=0.3", "LIN XP", "END")
+    files = {"m.src": "\n".join(lines), "m.dat": DATA, "$config.dat": CONFIG}
+    read = read_sources([source_from_text(name, text) for name, text in files.items()], "krl", Diagnostics())
+    done = translate_program(read, "rapid", "kuka_kr6r900sixx", None, Diagnostics())
+    text = "\n".join(file.data.decode() for file in done.files)
+    assert moves(text) == ["vmax,fine,tool1\\WObj:=wobj2;", "v300,fine,tool1\\WObj:=wobj2;"], text
+    assert "PERS tooldata tool1:=[TRUE,[[0,0,150]," in text and "BASE_DATA" not in text
+    assert 'PERS wobjdata wobj2:=[FALSE,TRUE,"",[[350,150,20],' in text
+
+
+LISTINGS = {
+    "main": "1: UFRAME_NUM=0;\n2: UTOOL_NUM=2;\n3:J P[1] 100% FINE;\n4: CALL PLACE;",
+    "place": "1: UFRAME_NUM=3;\n2:L P[1] 300mm/sec FINE;",
+}
+POINT = """P[1]{
+   GP1:
+  UF : 0, UT : 2,  CONFIG : 'N U T, 0, 0, 0',
+  X =  400.000 mm, Y = 0.000 mm, Z = 300.000 mm, W = 180.000 deg, P = 0.000 deg, R = 0.000 deg
+};"""
+
+
+def test_numbers_of_listings_are_those_of_tools_and_work_objects() -> None:
+    sources = [
+        source_from_text(f"{name}.ls", f"/PROG {name.upper()}\n/ATTR\n/MN\n{body}\n/POS\n{POINT}\n/END\n")
+        for name, body in LISTINGS.items()
+    ]
+    read = read_sources(sources, "tp", Diagnostics())
+    done = translate_program(read, "rapid", None, None, Diagnostics())
+    text = "\n".join(file.data.decode() for file in done.files)
+    assert moves(text) == ["vmax,fine,tool2;", "v300,fine,tool2\\WObj:=wobj3;"], text
+    assert not re.search(r"U(FRAME|TOOL)(_NUM|\{)", text)
+
+
+def test_the_first_routine_is_main_and_no_module_is_called_like_a_routine() -> None:
+    sources = [
+        source_from_text("cell.src", "DEF cell()\nfetch()\nEND"),
+        source_from_text("fetch.src", "DEF fetch()\n$OUT[1]=TRUE\nEND"),
+    ]
+    read = read_sources(sources, "krl", Diagnostics())
+    done = translate_program(read, "rapid", None, None, Diagnostics())
+    text = "\n".join(file.data.decode() for file in done.files)
+    assert done.renamed["cell"] == "main"
+    assert re.findall(r"^ *(?:MODULE|PROC) \w+", text, re.M) == [
+        "MODULE cell",
+        "  PROC main",
+        "MODULE fetchModule",
+        "  PROC fetch",
+    ]

@@ -41,5 +41,7 @@ def test_computed_poses(target: str) -> None:
     assert not diagnostics.has_losses, [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     written = [source_from_bytes(file.path, file.data) for file in result.files]
     again = read_sources(written, target, Diagnostics())
-    proof = prove_programs(program.program, again.program, "ur5e", entry="poses")
+    proof = prove_programs(
+        program.program, again.program, "ur5e", entry="poses", to_entry=result.renamed.get("poses", "poses")
+    )
     assert proof.agrees, proof.difference

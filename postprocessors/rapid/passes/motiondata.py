@@ -31,6 +31,7 @@ NEAREST = code(
 )
 _WITHIN = 0.02
 _ESTIMATED = 0.25  # how far an estimate may be from the predefined value: half of the way to the next one, about
+_TURN, _ANY_TURN_DEG = 4, 180.0  # where a zone says how far from its corner the tool may turn, and all there is
 _FULL = ir.Name("vmax")
 _FULL_MM_S = 5000.0  # what 100 % of the axes' speed is written as, where a tool speed has to stand for it
 _Values = tuple[float, ...]
@@ -67,6 +68,7 @@ class _Named:
 
     def named(self, data: ir.Aggregate, move: ir.Move | ir.MoveExternal) -> ir.Expression:
         """The name of the data, or the value of a predefined one."""
+        data = _with_any_turn(data) if data.type_name == "zone" else data
         numbers = [number_of(value) for _, value in data.entries]
         values = tuple(number for number in numbers if number is not None and column_of(number) is None)
         if len(values) < len(numbers):
@@ -129,6 +131,22 @@ def _is_near(known: _Values, wanted: _Values, letter: str, within: float) -> boo
     if letter == "z" and _is_usual(wanted):
         return known[0] == wanted[0] and abs(known[1] - wanted[1]) <= within * known[1]
     return all(abs(one - other) <= within * one for one, other in zip(known, wanted, strict=True))
+
+
+def _with_any_turn(zone: ir.Aggregate) -> ir.Aggregate:
+    """A zone that lets the tool turn more than its size does, so that the turn does not make it smaller: one for all
+    moves, whose turns are limited by the size on the path then."""
+    size, turn = zone.entries[1][1], zone.entries[_TURN][1]
+    if not isinstance(size, ir.RealLiteral | ir.IntLiteral) or not isinstance(turn, ir.RealLiteral | ir.IntLiteral):
+        return zone
+    usual = dict(ZONE_PROPORTIONS)["rotation"]
+    if column_of(size.value) is not None:
+        return zone
+    if column_of(turn.value) is None and turn.value <= size.value * usual * (1.0 + 1e-9):
+        return zone
+    entries = list(zone.entries)
+    entries[_TURN] = (entries[_TURN][0], ir.RealLiteral(_ANY_TURN_DEG))
+    return replace(zone, entries=tuple(entries))
 
 
 def _is_usual(zone: _Values) -> bool:

@@ -31,3 +31,7 @@ class NameRules:
 
     started_as_module: bool = False
     """A routine `main` bears the name of its module: that is what the operator selects and starts."""
+
+    entry: str = ""
+    """The name of the routine that the controller starts, where it asks for one; its modules are called like nothing
+    else in the program then."""

@@ -2,6 +2,7 @@
 search that leaves its level is used twice and through two calls."""
 
 import pytest
+from there_and_back import entry_of
 
 from rpl.cell.cellfile import parse_cell
 from rpl.diagnostics import Diagnostics
@@ -89,7 +90,7 @@ def test_each_stops_its_own_moves(target: str | None) -> None:
         back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, Diagnostics())
         program = with_signal_names(back.program, translation.program)
         cell = in_words_of(cell, read.program, program)
-        entry = translation.renamed.get("ONE", "ONE")
+        entry = entry_of(translation, "ONE")
     run = run_program(program, ROBOT, cell, entry, 60.0)
     assert run.status == "finished", run.fault
     state: dict[str, bool] = {}
