@@ -90,6 +90,8 @@ class _Calls:
         self, known: KnownData, values: HeldValues, routines: Mapping[int, tuple[ir.Routine, ir.Module]]
     ) -> None:
         self.known, self.values, self.routines = known, values, routines
+        # Forms repeat: what a call does by the scope where it stands, the call, and what is held in front of it.
+        self.found: dict[tuple[Scope, ir.CallRoutine, tuple[object, ...]], ir.Body | None] = {}
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -97,8 +99,12 @@ class _Calls:
     def statement(self, statement: ir.Statement) -> ir.Body:
         held = self.values.before(statement)
         if isinstance(statement, ir.CallRoutine):
-            done = self.made(statement, held)
+            key = self.scope, statement, tuple(held.items())
+            if key not in self.found:
+                self.found[key] = self.made(statement, held)
+            done = self.found[key]
             if done is not None:
+                done = tuple(replace(one, origin=statement.origin) for one in done)
                 return expansion(statement.origin, done) or (ir.Nothing(origin=statement.origin),)
         return (rewrite_parts(statement, lambda one: self.expression(one, held), self.body),)
 
@@ -113,7 +119,7 @@ class _Calls:
         done = effects.done
         if len(done) > _LONGEST or effects.open_choices > 1:
             return None
-        return tuple(replace(one, origin=call.origin) for one in done)
+        return tuple(done)
 
     def expression(self, one: ir.Expression, held: Held) -> ir.Expression:
         """An expression of the program with the values of functions in it."""
