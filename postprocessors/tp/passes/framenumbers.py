@@ -94,6 +94,8 @@ def _with_numbers(made: Mapping[str, _Table], assigned: set[str], scope: Scope, 
             case ir.Assign(target=ir.System(name=name), value=value) if name in made:
                 number = made[name].numbers.get(_key(value, scope))
                 return statement if number is None else replace(statement, value=element(name, number))
+            case ir.Move():
+                return statement  # what it goes to is a point or a register, not an element of the table
         return rewrite_parts(statement, change, whole)
 
     def whole(inner: ir.Body) -> ir.Body:

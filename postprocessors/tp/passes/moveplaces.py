@@ -90,9 +90,10 @@ class _Places:
     def split(self, place: ir.Expression) -> tuple[ir.Expression | None, ir.Expression]:
         """The named frame that a place is seen from, and the place in it."""
         match place:
-            case ir.Binary(op=":", left=ir.Name() as frame, right=inner) if self.is_frame(frame):
-                return frame, inner
-            case ir.Builtin(function="compose", arguments=(ir.Name() as frame, inner)) if self.is_frame(frame):
+            case (
+                ir.Binary(op=":", left=ir.Name() as frame, right=inner)
+                | ir.Builtin(function="compose", arguments=(ir.Name() as frame, inner))
+            ) if self.is_frame(frame) and self.has_register(inner):
                 return frame, inner
             case ir.Binary(op=":", left=left, right=right):
                 frame_of, inner = self.split(left)
@@ -103,6 +104,10 @@ class _Places:
                     return None, place
                 return frame_of, replace(place, arguments=(inner, *rest))
         return None, place
+
+    def has_register(self, place: ir.Expression) -> bool:
+        """Is it a place with a point or register of its own? One that is put together of numbers has none at a move."""
+        return isinstance(place, _PLAIN) or constant(place, self.scope, self.unchanged) is not None
 
     def is_frame(self, name: ir.Name) -> bool:
         symbol = self.scope.value(name.id)
