@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 
 import pytest
-from there_and_back import Journey, there_and_back
+from there_and_back import Journey, entry_of, there_and_back
 
 from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
@@ -81,12 +81,12 @@ TOOL = {
 ARMS = {"rapid": "abb_irb1600_6_12", "krl": "kuka_kr6r900_2"}
 
 
-def ends(files: Mapping[str, str], language: str, robot: str) -> list[float]:
-    """The y of the tool where each straight move ends, mm."""
+def ends(files: Mapping[str, str], language: str, robot: str, entry: str = "main") -> list[float]:
+    """The y of the tool where each straight move ends, mm; begun in the routine `entry`."""
     found = Diagnostics()
     program = read_sources([source_from_text(name, text) for name, text in files.items()], language, found).program
     assert not found.has_errors, [item.as_text() for item in found]
-    result = run_program(program, robot, None, "main", 60.0, controller="plain")
+    result = run_program(program, robot, None, entry, 60.0, controller="plain")
     assert result.status == "finished", result.fault
     plans = [event.legs[-1].plan for event in result.trace if event.kind == "move" and event.legs]
     return [round(float(plan.sample(2).tcp[-1, 1, 3]), 2) for plan in plans]
@@ -105,10 +105,11 @@ def test_an_approach_follows_the_point(source: str, target: str) -> None:
     files = {"m.mod": RAPID} if source == "rapid" else KRL
     journey = there_and_back(files, source, target, robot)
     written = texts(journey)
-    before = ends(written, target, robot)
+    entry = entry_of(journey.written, "main")
+    before = ends(written, target, robot, entry)
     pattern, new = TAUGHT[target]
     changed = {name: re.sub(pattern, new, text) for name, text in written.items()}
-    after = ends(changed, target, robot)
+    after = ends(changed, target, robot, entry)
     moved = [round(late - early) for early, late in zip(before, after, strict=True)]
     assert moved[-3:] == [40, 40, 40], journey.text
 
@@ -117,10 +118,12 @@ def test_an_approach_follows_the_point(source: str, target: str) -> None:
 def test_what_is_computed_of_frames_tools_and_components_follows(target: str) -> None:
     journey = there_and_back({"m.mod": FRAMES}, "rapid", target, ARMS["rapid"])
     written = texts(journey)
-    before = ends(written, target, ARMS["rapid"])
+    entry = entry_of(journey.written, "main")
+    before = ends(written, target, ARMS["rapid"], entry)
     assert before == pytest.approx([100.0, 130.0, 105.0], abs=0.01)
     for (pattern, new), far in ((TAUGHT[target], [40, 40, 40]), (TOOL[target], [0, 40, 0])):
-        after = ends({name: re.sub(pattern, new, text) for name, text in written.items()}, target, ARMS["rapid"])
+        changed = {name: re.sub(pattern, new, text) for name, text in written.items()}
+        after = ends(changed, target, ARMS["rapid"], entry)
         assert [round(late - early) for early, late in zip(before, after, strict=True)] == far, journey.text
 
 

@@ -11,7 +11,7 @@ from functools import cache
 
 import pytest
 from test_taught_anew import TAUGHT, ends, texts
-from there_and_back import Journey, there_and_back
+from there_and_back import Journey, entry_of, there_and_back
 
 ARMS = {
     "krl": "kuka_kr6r900_2",
@@ -199,12 +199,12 @@ def files_of(language: str, lines: str) -> dict[str, str]:
     return {"m.rpl": RPL % lines}
 
 
-def shifts(files: dict[str, str], language: str, robot: str) -> list[int]:
+def shifts(files: dict[str, str], language: str, robot: str, entry: str = "main") -> list[int]:
     """How far (y, mm) the moves behind the first one end beside their old places when the point is taught anew."""
     pattern, new = FORMS[language]
     anew = {name: re.sub(pattern, new, text) for name, text in files.items()}
     assert anew != files
-    pairs = zip(ends(files, language, robot), ends(anew, language, robot), strict=True)
+    pairs = zip(ends(files, language, robot, entry), ends(anew, language, robot, entry), strict=True)
     return [round(late - early) for early, late in pairs][1:]
 
 
@@ -230,6 +230,6 @@ def test_an_approach_follows_its_point_or_is_named(name: str, target: str) -> No
         points = {"krl": ("bTable" if "bTable" in lines else "xPick"), "rapid": "pPick", "rpl": "conveyor"}
         assert all(points[language] in message for message in named(journey))
         return
-    found = shifts(texts(journey), target, ARMS[language])
+    found = shifts(texts(journey), target, ARMS[language], entry_of(journey.written, "main"))
     # a frame of INFORM is taught by three points, of which one is changed here: it turns a little
     assert found[-len(wanted(name)) :] == pytest.approx(wanted(name), abs=1.0), journey.text

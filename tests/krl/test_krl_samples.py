@@ -19,9 +19,10 @@ def files_of(sample: Path) -> dict[str, str]:
 def test_reads_without_a_report(sample: Path) -> None:
     program, diagnostics = read(files_of(sample))
     assert not [item.as_text() for item in diagnostics]
-    entry = tomllib.loads((sample / "expected.toml").read_text("utf-8"))["entry"]
+    wanted = tomllib.loads((sample / "expected.toml").read_text("utf-8"))
+    entry = wanted["entry"]
     (routine,) = [r for m in program.modules for r in m.routines if r.name.lower() == entry]
-    assert any(
+    assert "quick" in wanted or any(  # tasks that all languages have by hand say it there
         "Expected" in comment.text for s in (*routine.declarations, *routine.body) for comment in s.origin.comments
     )
 

@@ -12,6 +12,7 @@ from rpl.project import ReadProgram, read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.there_and_back import entry_of
 
 FROM_ZERO = """
 MODULE m
@@ -113,28 +114,28 @@ def _read(language: str, text: str) -> ReadProgram:
     return read
 
 
-def _written(read: ReadProgram, target: str) -> tuple[ReadProgram, str]:
+def _written(read: ReadProgram, target: str) -> tuple[ReadProgram, str, str]:
     diagnostics = Diagnostics()
     done = translate_program(read, target, None, None, diagnostics)
     assert not diagnostics.has_losses, [item.as_text() for item in diagnostics]
     again = Diagnostics()
     back = read_sources([source_from_bytes(file.path, file.data) for file in done.files], target, again)
     assert not again.has_errors, [item.as_text() for item in again]
-    return back, "\n".join(file.data.decode() for file in done.files)
+    return back, entry_of(done, "main"), "\n".join(file.data.decode() for file in done.files)
 
 
 @pytest.mark.parametrize("target", ["", "krl", "rapid"])
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_the_expectation_holds(name: str, target: str) -> None:
     read = _read(*PROGRAMS[name])
-    program = _written(read, target)[0].program if target else read.program
-    result = run_program(program, None, None, "main")
+    back, entry, _ = _written(read, target) if target else (read, "main", "")
+    result = run_program(back.program, None, None, entry)
     assert result.status == "finished", result.fault
     assert [value for _, _, value in result.outputs] == [True]
 
 
 def test_a_handler_names_the_error_of_the_target() -> None:
-    _, text = _written(_read("rpl", OWN_ERROR_NAMES), "rapid")
+    _, _, text = _written(_read("rpl", OWN_ERROR_NAMES), "rapid")
     assert "ERROR (ERR_DIVZERO)" in text
     assert "division_by_zero" not in text
 
@@ -161,6 +162,6 @@ ARC_KRL = "DEF m( )\n%s\nCIRC {X 410,Y 10,Z 400,A 0,B 0,C 180},{X 400,Y 20,Z 400
     ],
 )
 def test_arcs_keep_their_rule(language: str, text: str, target: str, wanted: str, unwanted: str) -> None:
-    _, written = _written(_read(language, text), target)
+    _, _, written = _written(_read(language, text), target)
     assert wanted in written
     assert unwanted not in written

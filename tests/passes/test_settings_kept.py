@@ -53,5 +53,5 @@ def test_a_tool_is_said_again_where_it_must(between: str, times: int) -> None:
     read = read_sources([source_from_text("M.mod", text)], "rapid", diagnostics)
     written = translate_program(read, "krl", "abb_irb1200_5_90", None, diagnostics)
     text = next(file.data.decode() for file in written.files if file.path == "M.src")
-    main = text[text.index("DEF main") :].partition("\r\nEND\r\n")[0]
+    main = text[text.index("DEF M(") :].partition("\r\nEND\r\n")[0]
     assert main.count("$TOOL=tGrip") == times, main

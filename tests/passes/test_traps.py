@@ -39,7 +39,7 @@ def written(body: str) -> tuple[str, set[str], set[int]]:
     translation = translate_program(read, "rapid", KUKA, None, diagnostics, analog=WIRED)
     assert not diagnostics.of(Severity.LOSS)
     files = [source_from_bytes(file.path, file.data) for file in translation.files]
-    result = run_program(read_sources(files, "rapid", Diagnostics()).program, KUKA, None, "job", 60.0)
+    result = run_program(read_sources(files, "rapid", Diagnostics()).program, KUKA, None, "main", 60.0)
     assert result.fault is None
     on = {int(name[2:]): value for _, name, value in result.outputs if name.startswith("do")}
     told = {item.code.name for item in diagnostics}

@@ -166,7 +166,7 @@ def test_a_way_that_the_run_computes_limits_both_corners() -> None:
         "MoveL spot,v100,z30,tool0;",
         "MoveL Offs(base,90,300,10),v100,fine,tool0;",
     )
-    assert len(re.findall(r"r=rpl_min\(0\.0[34], point_dist\(.*spot.*\) \* 0\.4999\)", text)) == 2
+    assert len(re.findall(r"r=rpl_min_2\(0\.0[34], point_dist\(.*spot.*\) \* 0\.4999\)", text)) == 2
     assert [name for name, _ in told].count("corner-from-way") == 2
 
 
@@ -180,6 +180,6 @@ def test_the_later_corner_takes_what_is_left() -> None:
         "ENDFOR",
         "MoveL base,v100,fine,tool0;",
     )
-    assert "r=rpl_min(0.04, rpl_max(0.0, point_dist(spot, rpl_corner) - 0.04002)))" in text
+    assert "r=rpl_min_2(0.04, rpl_max_2(0.0, point_dist(spot, rpl_corner) - 0.04002)))" in text
     assert text.count("rpl_corner = ") >= 2
     assert ("corner-from-way", 10) in told

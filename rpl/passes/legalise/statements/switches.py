@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.capabilities import Composite
+from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant, root
 from rpl.passes.legalise.rewriting.bodies import Hoister
@@ -23,11 +25,29 @@ def unroll_switches(program: ir.Program, context: Context) -> ir.Program:
 
 class _Switches(Hoister):
     def switch(self, statement: ir.Switch) -> ir.Body:
+        chosen = self._chosen(statement)
+        if chosen is not None:
+            return expansion(statement.origin, self.body(chosen) or (ir.Nothing(),))
         done = super().switch(statement)
         last = done[-1]
         if not isinstance(last, ir.Switch) or self._sayable(last):
             return done
         return (*done[:-1], *self._chain(last))
+
+    def _chosen(self, statement: ir.Switch) -> ir.Body | None:
+        """What is done where selector and cases are known, for targets whose constants stand in no register that could
+        be selected by; None where the run chooses."""
+        scope = self.editor.scope
+        selector = constant(statement.selector, scope) if self.editor.capabilities.storage.banks else None
+        if selector is None or any(isinstance(node, ir.Label) for node in walk(statement)):
+            return None
+        for case in statement.cases:
+            values = [constant(value, scope) for value in case.values]
+            if None in values:
+                return None
+            if selector in values:
+                return case.body
+        return statement.default or ()
 
     def _sayable(self, statement: ir.Switch) -> bool:
         capabilities = self.editor.capabilities
