@@ -136,7 +136,9 @@ def test_nothing_that_is_there_is_given_to_something_else(target: str, text: str
     assert not set(done.registers) & set(found.numbers)
     routines = {one.name.lower() for module in done.program.modules for one in module.routines}
     assert not routines & set(found.names)
-    assert ("name-taken-there" in told) == ("station" in translated(text, target, None)[0].names.values())
+    alone, _ = translated(text, target, None)
+    modules = {Path(file.path).stem.lower() for file in alone.files}
+    assert ("name-taken-there" in told) == ("station" in modules.union(alone.names.values()))
 
 
 @pytest.mark.parametrize(("target", "line"), [("tp", "DO[5]=ON"), ("rapid", "SetDO doGrip,1;")])
