@@ -12,7 +12,8 @@ from difflib import get_close_matches
 from functools import cache
 from importlib import import_module, resources
 from importlib.metadata import entry_points
-from typing import TYPE_CHECKING, Protocol
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Protocol, cast
 
 from rpl.diagnostics import Diagnostics
 from rpl.errors import UsageError
@@ -40,8 +41,8 @@ class ReadSources(Protocol):
     def __call__(self, sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult: ...
 
 
-class WriteProgram(Protocol):
-    def __call__(self, program: Program, context: WriteContext) -> list[OutputFile]: ...
+class LastPass(Protocol):
+    def __call__(self, program: Program, context: WriteContext) -> Program: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,25 +109,33 @@ class Dialect:
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A language that can be written. `write` raises InternalError when its ledger finds an unwritten node.
+    """A language that can be written. `package`: its folder as a module, whose parts are imported when asked for:
+
+    `capabilities` has CAPABILITIES (and `fitted`, which gives those under some options); `writer` has `write`, which
+    raises InternalError when its ledger finds an unwritten node; `passes`, where there are any, has PASSES, rewritings
+    that only this target needs, each with its place among those of the core, and LAST, those right in front of the
+    writer, also where a program is written in its own language.
 
     What its controller loads: lines of at most `longest_line` characters (0: any), text in one of the `encodings`.
-    `options`: names of the target's own options and what they say; `fitted` gives the capabilities under some of them.
-    `aliases`: other words for it, beside those of the dialect of its name. `passes`: rewritings that only it
-    needs, each with its place among those of the core. `rows`: can it write moves of one shape as one node (ir.Rows)?
+    `options`: names of the target's own options and what they say. `aliases`: other words for it, beside those of the
+    dialect of its name. `rows`: can it write moves of one shape as one node (ir.Rows)?
     """
 
-    name: str
+    package: str
     title: str
-    capabilities: Callable[[], Capabilities]
-    write: WriteProgram
     options: Mapping[str, str] = field(default_factory=dict)
     longest_line: int = 0
     encodings: tuple[str, ...] = ("utf-8",)
-    fitted: Callable[[Mapping[str, str]], Capabilities] | None = None
     aliases: tuple[str, ...] = ()
-    passes: Callable[[], tuple[Placed, ...]] = tuple
     rows: bool = False
+
+    @property
+    def name(self) -> str:
+        return self.package.rpartition(".")[2]
+
+    def capabilities(self) -> Capabilities:
+        """What the controller can say."""
+        return cast("Capabilities", import_module(f"{self.package}.capabilities").CAPABILITIES)
 
     def capabilities_under(self, options: Mapping[str, str]) -> Capabilities:
         """What the controller can say when these options are given. Raises UsageError for an option it has not."""
@@ -134,7 +143,26 @@ class Target:
         if unknown is not None:
             known = "; ".join(f"{name}: {about}" for name, about in self.options.items())
             raise UsageError(f"{self.name} has no option {unknown!r}" + (f": there is {known}" if known else ""))
-        return self.fitted(options) if self.fitted is not None and options else self.capabilities()
+        fitted = getattr(import_module(f"{self.package}.capabilities"), "fitted", None)
+        return cast("Capabilities", fitted(options)) if fitted is not None and options else self.capabilities()
+
+    def passes(self) -> tuple[Placed, ...]:
+        """Rewritings that only it needs, each with its place among those of the core."""
+        return cast("tuple[Placed, ...]", self._of_passes("PASSES"))
+
+    def last(self) -> tuple[LastPass, ...]:
+        """Rewritings right in front of the writer: what one instruction of the controller says together."""
+        return cast("tuple[LastPass, ...]", self._of_passes("LAST"))
+
+    def write(self, program: Program, context: WriteContext) -> list[OutputFile]:
+        """The files of a program in the target's terms."""
+        for one in self.last():
+            program = one(program, context)
+        return cast("list[OutputFile]", import_module(f"{self.package}.writer").write(program, context))
+
+    def _of_passes(self, name: str) -> object:
+        place = f"{self.package}.passes"
+        return getattr(import_module(place), name, ()) if find_spec(place) is not None else ()
 
 
 @cache

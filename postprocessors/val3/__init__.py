@@ -1,34 +1,5 @@
-"""Staubli VAL3 as a target: the record that the registry finds. Heavy modules load when asked for."""
-
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+"""Staubli VAL3 as a target: the record that the registry finds."""
 
 from rpl.registry import Target
 
-if TYPE_CHECKING:
-    from rpl.ir import Program
-    from rpl.passes.capabilities import Capabilities
-    from rpl.passes.legalise.stages import Placed
-    from rpl.writing.target import OutputFile, WriteContext
-
-
-def _capabilities() -> Capabilities:
-    from .capabilities import CAPABILITIES
-
-    return CAPABILITIES
-
-
-def _write(program: Program, context: WriteContext) -> list[OutputFile]:
-    from .writer import write
-
-    return write(program, context)
-
-
-def _passes() -> tuple[Placed, ...]:
-    from .passes import PASSES
-
-    return PASSES
-
-
-TARGET = Target("val3", "Staubli VAL3", _capabilities, _write, passes=_passes)
+TARGET = Target(__name__, "Staubli VAL3")

@@ -1,13 +1,10 @@
-"""Files of RPL, and what RPL can say: everything."""
+"""What RPL can say: everything."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
 from typing import get_args
 
 from rpl import ir
-from rpl.errors import UsageError
 from rpl.ir import words
 from rpl.passes.capabilities import (
     Aggregate,
@@ -25,9 +22,7 @@ from rpl.passes.capabilities import (
     Routines,
     Settings,
 )
-from rpl.writing.target import Capabilities, NameRules, OutputFile, WriteContext
-
-from .modules import entry_lines, module_lines, program_lines
+from rpl.writing.target import Capabilities, NameRules
 
 CAPABILITIES = Capabilities(
     statements=frozenset(node.__name__ for node in get_args(ir.Statement)),
@@ -65,26 +60,3 @@ CAPABILITIES = Capabilities(
         counting=frozenset((Counting.AT_LEAST_ONCE, Counting.AUTOMATIC, Counting.REAL, Counting.SCOPED)),
     ),
 )
-
-
-def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
-    """The program as one file, or one for each module."""
-    style = context.options.get("files", "program")
-    if style == "program":
-        names = [program.entry, *(module.name for module in program.modules), "program"]
-        return [_file(next(name for name in names if name), program_lines(program))]
-    if style != "module":
-        raise UsageError(f"option files is `program` or `module`, not {style!r}")
-    files = [_file(module.name, module_lines(module)) for module in program.modules]
-    tasks = [*entry_lines(program)]
-    return [*files, _file("tasks", tasks)] if tasks else files
-
-
-def program_text(program: ir.Program) -> str:
-    """The text of a whole program."""
-    return "".join(f"{line}\n" for line in program_lines(program))
-
-
-def _file(name: str, lines: Iterable[str]) -> OutputFile:
-    safe = re.sub(r"[^\w.-]", "_", name).strip(".") or "program"
-    return OutputFile(f"{safe}.rpl", "".join(f"{line}\n" for line in lines).encode("utf-8"))
