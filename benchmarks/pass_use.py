@@ -1,10 +1,12 @@
 """Which passes act: how often each changed or reported something, for which target, over any folder of programs.
 
     python benchmarks/pass_use.py FOLDER... [--to TARGET ...] [--projects] [--robot R] [--csv FILE]
+        [--limit SECONDS] [--most N]
 
-Each file is translated by itself; with --projects each folder that holds programs is one project. A pass has acted when
-the program behind it is another one (comments and places of origin apart), or when it has reported something. Passes
-that never act on real programs are the first to ask whether they earn their lines.
+Each file is translated by itself; with --projects each folder that holds programs is one project. --limit gives up a
+program whose translations take longer; --most takes an even choice of so many (of each suffix, or of all projects).
+A pass has acted when the program behind it is another one (comments and places of origin apart), or when it has
+reported something. Passes that never act on real programs are the first to ask whether they earn their lines.
 """
 
 from __future__ import annotations
@@ -12,8 +14,9 @@ from __future__ import annotations
 import argparse
 import csv
 import os
+import signal
 import sys
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -60,17 +63,35 @@ def watched(one: Pass, acted: set[str]) -> Pass:
     return replace(one, run=run)
 
 
-def use_of(job: tuple[tuple[Path, ...], tuple[str, ...], str | None]) -> Use:
+def use_in_time(job: tuple[tuple[Path, ...], tuple[str, ...], str | None], limit: float) -> Use:
+    """`use_of`, given up after so many seconds (0: never)."""
+
+    def late(*_: object) -> None:
+        raise TimeoutError
+
+    signal.signal(signal.SIGALRM, late)
+    signal.setitimer(signal.ITIMER_REAL, limit)
+    found = Use()
+    try:
+        use_of(job, found)
+    except TimeoutError:
+        found.failed.append(f"{job[0][0]}: longer than {limit:g} s")
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    return found
+
+
+def use_of(job: tuple[tuple[Path, ...], tuple[str, ...], str | None], found: Use) -> None:
     """Translate one program into the targets and see which passes act."""
     paths, targets, robot = job
-    found, acted = Use(), set[str]()
+    acted = set[str]()
     try:
         read = read_program(list(paths), None, Diagnostics())
     except RplError as error:
         found.failed.append(f"{paths[0]}: {error}")
-        return found
+        return
     if not read.files:
-        return found
+        return
     plain = pipeline.passes_with
     pipeline.passes_with = lambda own: tuple(watched(one, acted) for one in plain(own))
     try:
@@ -87,23 +108,26 @@ def use_of(job: tuple[tuple[Path, ...], tuple[str, ...], str | None]) -> Use:
             found.acted.update((name, target) for name in acted)
     finally:
         pipeline.passes_with = plain
-    return found
 
 
-def programs(folders: Sequence[Path], projects: bool) -> Iterator[tuple[Path, ...]]:
+def even(paths: Sequence[Path], most: int) -> Sequence[Path]:
+    """So many of them, at even distances; 0: all."""
+    return paths if not 0 < most < len(paths) else [paths[n * len(paths) // most] for n in range(most)]
+
+
+def programs(folders: Sequence[Path], projects: bool, most: int) -> Iterator[tuple[Path, ...]]:
     """Files, or folders of files, that any dialect reads by their suffix."""
     suffixes = {end for name in registry.dialect_names() for end in registry.dialect(name).extensions}
-    for folder in folders:
-        files = [folder] if folder.is_file() else sorted(folder.rglob("*"))
-        found = [
-            path
-            for path in files
-            if path.suffix.lower() in suffixes and path.is_file() and path.stat().st_size <= _LARGEST
-        ]
-        if projects:
-            yield from ((parent,) for parent in sorted({path.parent for path in found}))
-        else:
-            yield from ((path,) for path in found)
+    files = [one for folder in folders for one in ([folder] if folder.is_file() else sorted(folder.rglob("*")))]
+    by_suffix = defaultdict[str, list[Path]](list)
+    for path in files:
+        if path.suffix.lower() in suffixes and path.is_file() and path.stat().st_size <= _LARGEST:
+            by_suffix[path.suffix.lower()].append(path)
+    if projects:
+        parents = {path.parent for found in by_suffix.values() for path in found}
+        yield from ((parent,) for parent in even(sorted(parents), most))
+    else:
+        yield from ((path,) for _, found in sorted(by_suffix.items()) for path in even(found, most))
 
 
 def rows_of(uses: Sequence[Use], targets: Sequence[str]) -> list[tuple[str, int, dict[str, int]]]:
@@ -139,13 +163,15 @@ def main() -> None:
     parser.add_argument("--to", action="append", choices=registry.target_names(), help="only these targets")
     parser.add_argument("--projects", action="store_true", help="a folder with programs is one project")
     parser.add_argument("--robot", help="the arm of all of them")
+    parser.add_argument("--limit", type=float, default=0, metavar="SECONDS", help="give up a program behind it")
+    parser.add_argument("--most", type=int, default=0, metavar="N", help="so many of each suffix, or projects")
     parser.add_argument("--csv", metavar="FILE", help="write the table there as well")
     options = parser.parse_args()
     targets = tuple(options.to or registry.target_names())
-    jobs = [(paths, targets, options.robot) for paths in programs(options.folders, options.projects)]
+    jobs = [(paths, targets, options.robot) for paths in programs(options.folders, options.projects, options.most)]
     uses = []
     with ProcessPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
-        for number, use in enumerate(pool.map(use_of, jobs), 1):
+        for number, use in enumerate(pool.map(use_in_time, jobs, [options.limit] * len(jobs)), 1):
             uses.append(use)
             print(f"\r{number} of {len(jobs)}", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)

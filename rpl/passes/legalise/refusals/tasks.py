@@ -63,6 +63,6 @@ TASKS = (
     Refusal("an operation on another task that the target has not", TASK, (ir.TaskControl,), _task),
     Refusal("a task that never ends, started once more beside itself", SURELY),
     Refusal("an argument of a task that the task or what starts it may change", SHARED),
-    Refusal("a task that moves the robot while the program does not just look at what ends it", KEPT),
+    Refusal("a task that moves the robot and that the program ends on its way, or moves beside", KEPT),
     Refusal("tasks that wait for each other at a point", MEETING, (ir.Meet,), _meeting),
 )

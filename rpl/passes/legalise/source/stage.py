@@ -25,7 +25,6 @@ from rpl.passes.legalise.source.places.recordsinuse import records_in_use
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
 from rpl.passes.legalise.source.precisions import precisions
-from rpl.passes.legalise.source.randomnumbers import random_numbers
 from rpl.passes.legalise.source.rates import rates
 from rpl.passes.legalise.source.readports import read_ports
 from rpl.passes.legalise.source.sameunits import same_units
@@ -81,7 +80,6 @@ STAGE = Stage(
         levels_to_distances,
         displacements,
         whole_settings,
-        random_numbers,
         formats,
         whole_texts,
         text_orders,
