@@ -1,5 +1,5 @@
-"""Threads that hold the motion, for targets where only the program itself moves the robot: the thread is called, and
-what ends it is an interrupt."""
+"""Threads that hold the motion, for targets where only the program itself moves the robot: the thread is called;
+one that the program ends on its way is refused."""
 
 from __future__ import annotations
 
@@ -63,35 +63,7 @@ TAIL = """
   set_standard_digital_out(2, True)
 end
 """
-ON_THE_WAY = "now[1] > -0.095 and now[1] < -0.01"
 ONE_MOVE = "movel(corner, v=0.02)"
-MOVES = "while True:\n      movel(corner, v=0.02)\n      movel(home, v=0.02)\n    end"
-FOUND = """def found():
-    local h = run approach()
-    while not get_standard_digital_in(0) and not flag > 1:
-      sync()
-    end
-    if flag > 1:
-      count = 1
-      return False
-    end
-    kill h
-    stopl(2)
-    return True
-  end"""
-MET = """def met():
-    local h = run approach()
-    while not (get_standard_digital_in(0) or flag > 1):
-      sync()
-    end
-    if get_standard_digital_in(0):
-      kill h
-      stopl(2)
-      return True
-    end
-    count = 1
-    return False
-  end"""
 REGIONS = {
     "joined": ("h = run approach()\n  join h", ONE_MOVE, "norm(now[1]) < 0.0001", "flag == 2"),
     "joined at once": ("h = run approach()\n  count = 3\n  join h", ONE_MOVE, "norm(now[1]) < 0.0001", "count == 3"),
@@ -100,52 +72,6 @@ REGIONS = {
         ONE_MOVE,
         "norm(now[1]) < 0.0001",
         "flag == 2",
-    ),
-    "a condition": (
-        "h = run approach()\n  while not get_standard_digital_in(0):\n    sync()\n  end\n  kill h\n  stopl(3)",
-        ONE_MOVE,
-        ON_THE_WAY,
-        "flag == 1",
-    ),
-    "while a condition holds": (
-        "h = run approach()\n  while get_standard_digital_in(0) == False:\n    sync()\n  end\n  kill h\n  stopl(3)",
-        MOVES,
-        ON_THE_WAY,
-        "flag == 1",
-    ),
-    "a loop that looks": (
-        "h = run approach()\n  while flag < 2 and not touched:\n    if get_standard_digital_in(0):\n"
-        "      touched = True\n      kill h\n      stopl(2)\n    end\n    sync()\n  end",
-        ONE_MOVE,
-        ON_THE_WAY,
-        "touched and flag == 1",
-    ),
-    "a loop that is left": (
-        "h = run approach()\n  while True:\n    sleep(0.01)\n    if flag > 1:\n      join h\n      break\n    end\n"
-        "    if get_standard_digital_in(0):\n      count = count + 1\n      kill h\n      stopl(2)\n      break\n"
-        "    end\n    sync()\n  end",
-        ONE_MOVE,
-        ON_THE_WAY,
-        "count == 1",
-    ),
-    "a function that is left": (
-        f"{FOUND}\n  touched = found()",
-        ONE_MOVE,
-        ON_THE_WAY,
-        "touched and flag == 1 and count == 0",
-    ),
-    "a function that chooses": (
-        f"{MET}\n  touched = met()",
-        ONE_MOVE,
-        ON_THE_WAY,
-        "touched and flag == 1 and count == 0",
-    ),
-    "nothing comes": (
-        "h = run approach()\n  while flag < 2 and not touched:\n    if get_standard_digital_in(1):\n"
-        "      touched = True\n      kill h\n      stopl(2)\n    end\n    sync()\n  end",
-        ONE_MOVE,
-        "norm(now[1]) < 0.0001",
-        "flag == 2 and not touched",
     ),
 }
 WORK = {
@@ -162,6 +88,8 @@ UNFIT = {
     "other work": "h = run approach()\n  while flag < 2:\n    count = count + 1\n    sleep(0.5)\n    if count > 5:\n"
     "      kill h\n      stopl(2)\n      flag = 2\n    end\n  end",
     "never awaited": "run approach()\n  sleep(7)",
+    "a condition": "h = run approach()\n  while not get_standard_digital_in(0):\n    sync()\n  end\n"
+    "  kill h\n  stopl(3)",
     "time": "h = run approach()\n  sleep(2)\n  kill h\n  stopl(2)",
 }
 

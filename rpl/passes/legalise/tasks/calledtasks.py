@@ -1,29 +1,28 @@
 """Tasks that move the robot (URScript threads that hold the whole motion), for targets where only the program itself
-moves it: the roles are turned around. The task's routine is called where it was started, and what the program looks at
-meanwhile to end it becomes an interrupt that brakes and leaves the routine.
+moves it: the roles are turned around. The task's routine is called where it was started.
 
-What the program did in between stays behind the call, where the task has ended: a loop that waits finds the condition
-that came. Work that does not end the task becomes a task of its own, which the program joins. Only where that is known
-for all starts of a task; the others are refused, and so is a wait for a limited time, which would not end the motion.
+What the program did until it waits for the task's end and takes no time stays in front of the call; the waiting finds
+the task at its end. Other work meanwhile becomes a task of its own, which the program joins. Only where that is known
+for all starts of a task; the others are refused, and so is a task that the program ends on its way: nobody would stop
+the motion of a routine.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import TypeGuard
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.usage import called_names, exposed
-from rpl.passes.legalise.rewriting.beside import closure, local_names, tidy
+from rpl.passes.legalise.facts.usage import assigned_in, called_names, exposed
+from rpl.passes.legalise.rewriting.beside import closure, local_names, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, expansion, map_body
-from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.tasks.watchedloops import Event, UnfitError, WatchedTask
 
 CALLED = code(
     "moving-task-called",
@@ -39,8 +38,13 @@ KEPT = code(
 )
 _DRIVES = (ir.Move, ir.MoveExternal, ir.Spline)
 _TIME = (*_DRIVES, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.StopMotion, ir.Dialog)
-_PRIORITY = 1  # more urgent than any other interrupt of the program
-_FIRST_IDENTITY = 9001
+_WAITING = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Pulse)
+_STOPPING = (ir.StopMotion, ir.ClearMotion, ir.StartMotion)
+_JUMPING = (ir.Goto, ir.Label, ir.Raise, ir.Halt, ir.Return)
+
+
+class _UnfitError(Exception):
+    """Why a task cannot be called as a routine."""
 
 
 @legalising(unless=lambda context: context.capabilities.tasks.moving, sees=("TaskControl",))
@@ -56,7 +60,7 @@ def called_tasks(program: ir.Program, context: Context) -> ir.Program:
             continue
         try:
             done = _Called(done, context, name).program_with_calls()
-        except UnfitError as reason:
+        except _UnfitError as reason:
             done = _refused(done, context, name, str(reason))
     return done
 
@@ -74,53 +78,56 @@ def _refused(program: ir.Program, context: Context, name: str, reason: str) -> i
 
 @dataclass(slots=True)
 class _Called:
-    """One task. `known`: routines (folded) that take time."""
+    """One task. timed, driving: routines (folded) that take time, that drive; ended: what the task sets at its end;
+    hidden: names that a task beside does not see; outermost: the body of a routine that nobody calls."""
 
     program: ir.Program
     context: Context
     name: str
-    task: WatchedTask = field(init=False)
-    routines: list[ir.Routine] = field(default_factory=list)
+    task: ir.Routine = field(init=False)
+    timed: frozenset[str] = field(init=False)
+    driving: frozenset[str] = field(init=False)
+    ended: frozenset[str] = field(init=False)
+    hidden: frozenset[str] = frozenset()
     made: list[ir.Routine] = field(default_factory=list)
-    data: list[ir.Variable] = field(default_factory=list)
-    controls: int = 0
-    outermost: ir.Body | None = None  # the body of a routine that nobody calls
+    outermost: ir.Body | None = None
 
     def __post_init__(self) -> None:
         found = [r for m in self.program.modules for r in m.routines if r.name.lower() == self.name]
         if len(found) != 1:
-            raise UnfitError("the program has no such routine")
-        timed = closure(self.program, _TIME)
-        self.task = WatchedTask(self.context, found[0], timed, closure(self.program, _DRIVES))
+            raise _UnfitError("the program has no such routine")
+        self.task = found[0]
+        self.timed, self.driving = closure(self.program, _TIME), closure(self.program, _DRIVES)
+        tail: list[ir.Statement] = []
+        for statement in reversed(self.task.body):
+            if self.takes_time(statement):
+                break
+            tail.append(statement)
+        self.ended = frozenset(assigned_in(tuple(tail)))
 
     def program_with_calls(self) -> ir.Program:
-        asked = [node for node in self.nodes() if node.task.lower() == self.name]
+        asked = [node for node in walk(*self.program.modules) if self.is_control(node)]
         if any(one.op in ("pause", "resume") for one in asked):
-            raise UnfitError("it is halted and goes on in the middle")
-        if self.task.routine.kind == "function":
-            raise UnfitError("it is a function")
-        modules = tuple(
-            replace(module, routines=tuple(map(self.routine, module.routines))) for module in self.program.modules
+            raise _UnfitError("it is halted and goes on in the middle")
+        if self.task.kind == "function":
+            raise _UnfitError("it is a function")
+        done = replace(
+            self.program,
+            modules=tuple(
+                replace(module, routines=tuple(map(self.routine, module.routines))) for module in self.program.modules
+            ),
         )
-        done = replace(self.program, modules=modules)
-        left = [n for n in walk(*modules) if isinstance(n, ir.TaskControl) and n.task.lower() == self.name]
-        if left:
-            raise UnfitError("the program ends it, or waits for it, where it was not started")
-        if self.routines or self.made:
+        if any(self.is_control(node) for node in walk(*done.modules)):
+            raise _UnfitError("the program ends it, or waits for it, where it was not started")
+        if self.made:
             done = self.ending(done)
-        how = "is done by a task beside it" if self.made else "is done behind it"
-        how = how if not self.routines else "to end it is an interrupt"
-        self.context.diagnostics.report(CALLED, asked[0].origin, name=self.task.routine.name, how=how)
-        made = (*self.routines, *self.made)
-        done = exposed(done, called_names(made))
-        return with_support(done, self.context, self.data, made, modules[0].task)
-
-    def nodes(self) -> Iterator[ir.TaskControl]:
-        return (node for node in walk(*self.program.modules) if isinstance(node, ir.TaskControl))
+        how = "is done by a task beside it" if self.made else "is done before and behind it"
+        self.context.diagnostics.report(CALLED, asked[0].origin, name=self.task.name, how=how)
+        done = exposed(done, called_names(self.made))
+        return with_support(done, self.context, (), self.made, done.modules[0].task)
 
     def ending(self, program: ir.Program) -> ir.Program:
-        """The routine ends when the robot stands, so that the interrupt is armed until then; what it says to others on
-        its way it says where the robot is."""
+        """The routine ends when the robot stands; what it says to others on its way it says where the robot is."""
         stands = ir.WaitForMotion()
         source, target = (rules_of(one).advance.runs_ahead_of for one in (self.context.source, self.context.target))
         waits = source == "fly_by" and target == "all"
@@ -142,14 +149,42 @@ class _Called:
         modules = tuple(replace(m, routines=tuple(map(routine, m.routines))) for m in program.modules)
         return replace(program, modules=modules)
 
+    # ---- what is asked of statements
+
+    def takes_time(self, statement: ir.Statement) -> bool:
+        if moves_or_waits(statement, self.timed):
+            return True
+        return any(isinstance(node, (*_WAITING, *LOOPS)) for node in walk(statement))
+
+    def is_control(self, node: object) -> TypeGuard[ir.TaskControl]:
+        return isinstance(node, ir.TaskControl) and node.task.lower() == self.name
+
+    def controls(self, statement: ir.Statement) -> bool:
+        return any(map(self.is_control, walk(statement)))
+
+    def finds_ended(self, statement: ir.Statement) -> bool:
+        """Does it wait for nothing but what the task says at its end?"""
+        match statement:
+            case ir.WaitUntil(condition=condition, timeout=None):
+                pass
+            case ir.While(condition=condition, body=body):
+                if not all(isinstance(one, ir.Wait | ir.Nothing) for one in body):
+                    return False
+            case _:
+                return False
+        parts = list(walk(condition))
+        names = {node.id.lower() for node in parts if isinstance(node, ir.Name)}
+        asked = any(isinstance(node, ir.Signal | ir.System | ir.Call | ir.Builtin) for node in parts)
+        return bool(names) and names <= self.ended and not asked
+
     # ---- the routines that start it
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
-        if not any(isinstance(n, ir.TaskControl) and n.task.lower() == self.name for n in walk(*bodies(routine))):
+        if not any(map(self.is_control, walk(*bodies(routine)))):
             return routine
         if routine.name.lower() == self.name:
-            raise UnfitError("it controls itself")
-        self.task.hidden = local_names(routine)
+            raise _UnfitError("it controls itself")
+        self.hidden = local_names(routine)
         called = called_names(r for m in self.program.modules for r in m.routines)
         self.outermost = None if routine.name.lower() in called else routine.body
         return edit_bodies(routine, self.body)
@@ -159,69 +194,70 @@ class _Called:
         at = 0
         while at < len(body):
             statement = body[at]
-            if (
-                isinstance(statement, ir.TaskControl)
-                and statement.task.lower() == self.name
-                and statement.op == "start"
-            ):
-                last = self.task.last_word(body, at)
+            if self.is_control(statement) and statement.op == "start":
+                last = self.last_word(body, at)
                 if last is None and self.outermost is not body:
-                    raise UnfitError("the program does not wait for its end")
+                    raise _UnfitError("the program does not wait for its end")
                 rest = body[at + 1 : len(body) if last is None else last + 1]
-                done.extend(self.work_beside(statement, rest) if last is None else self.region(statement, rest))
+                done.extend(self.region(statement, rest))
                 at += 1 + len(rest)
                 continue
             done.append(inside(statement, self.body))
             at += 1
         return body if all(a is b for a, b in zip(done, body, strict=False)) and len(done) == len(body) else tuple(done)
 
-    def region(self, start: ir.TaskControl, region: ir.Body) -> ir.Body:
-        """What stands from the start of the task to its end: up to the waiting, the call, and the rest."""
-        try:
-            before, events, after = self.task.parted(region)
-        except UnfitError:
-            if self.task.ends(region):
-                raise
-            return self.work_beside(start, region)
-        call = ir.CallRoutine(start.task, start.arguments)
-        way = expansion(start.origin, self.guarded(start, call, events) if events else (call,))
-        return (*before, *way, *after) if not before else (*_first(before, start), *_rest(way), *after)
+    def last_word(self, body: ir.Body, start: int) -> int | None:
+        """The last statement of the body that concerns the task, or waits for what it says at its end; None when the
+        program never does."""
+        last = None
+        for at in range(start + 1, len(body)):
+            statement = body[at]
+            if self.is_control(statement) and statement.op == "start":
+                break
+            waits = isinstance(statement, (*LOOPS, ir.WaitUntil)) and any(
+                isinstance(node, ir.Name) and node.id.lower() in self.ended for node in walk(statement)
+            )
+            if self.controls(statement) or waits:
+                last = at
+        return last
 
-    def work_beside(self, start: ir.TaskControl, region: ir.Body) -> ir.Body:
-        """The call, and what the program does until the task has ended as a task of its own."""
-        if not region:
-            return expansion(start.origin, (ir.CallRoutine(start.task, start.arguments),))
-        work = self.context.fresh(f"rpl_beside_{self.name}")
-        self.made.append(ir.Routine(work, body=self.task.alone(region), scope="global"))
+    def region(self, start: ir.TaskControl, region: ir.Body) -> ir.Body:
+        """What stands from the start of the task to its end: up to the waiting, the call, and the rest; or the call,
+        and what the program does meanwhile as a task of its own."""
+        for node in walk(*region):
+            if self.is_control(node) and node.op == "stop":
+                raise _UnfitError("the program ends it on its way")
+            if isinstance(node, _JUMPING):
+                raise _UnfitError("the program leaves the place from where it looks at it")
+            calls = isinstance(node, ir.CallRoutine | ir.Call) and node.name.lower() in self.driving
+            if calls or isinstance(node, (*_STOPPING, *_DRIVES)):
+                raise _UnfitError("the program moves the robot too")
+        at = 0
+        while at < len(region) and not self.controls(region[at]) and not self.takes_time(region[at]):
+            at += 1
         call = ir.CallRoutine(start.task, start.arguments)
+        if at < len(region) and (self.is_control(region[at]) or self.finds_ended(region[at])):
+            before = (ir.Nothing(origin=start.origin),) if at and start.origin.comments else ()
+            origin = tidy(start.origin) if at else start.origin
+            return (*before, *region[:at], replace(call, origin=origin), *self.quiet(region[at:]))
+        if not region:
+            return (replace(call, origin=start.origin),)
+        for node in walk(*region):
+            if isinstance(node, ir.Name) and node.id.lower() in self.hidden:
+                raise _UnfitError(f"{node.id} is a variable of the routine that works meanwhile")
+        work = self.context.fresh(f"rpl_beside_{self.name}")
+        self.made.append(ir.Routine(work, body=self.quiet(region), scope="global"))
         return expansion(start.origin, (ir.TaskControl("start", work), call, ir.TaskControl("join", work)))
 
-    def guarded(self, start: ir.TaskControl, call: ir.CallRoutine, events: list[Event]) -> ir.Body:
-        """The call with interrupts for what ends it; where that is so already there is no motion."""
-        already: list[tuple[ir.Expression, ir.Body]] = []
-        armed: list[ir.Statement] = []
-        off: list[ir.Statement] = []
-        for event in events:
-            hit = ir.Assign(event.hit, ir.BoolLiteral(True))
-            number = ir.IntLiteral(_FIRST_IDENTITY + self.controls)
-            self.controls += 1
-            action = self.context.fresh(f"rpl_ends_{self.name}")
-            bare = tuple(replace(one, origin=tidy(one.origin)) for one in event.before)
-            ending = (*bare, ir.StopMotion(), hit, ir.ResumeLevel())
-            self.routines.append(ir.Routine(action, body=ending, scope="global"))
-            self.data.append(ir.Variable(event.hit.id, ir.BoolType(), ir.BoolLiteral(False), scope="global"))
-            already.append((event.condition, (*bare, hit)))
-            declared = ir.DeclareInterrupt(
-                ir.IntLiteral(_PRIORITY),
-                event.condition,
-                ir.CallRoutine(action),
-                identity=number,
-                origin=tidy(start.origin),
-            )
-            armed += [declared, ir.ControlInterrupt("on", number)]
-            off.append(ir.ControlInterrupt("off", number))
-        first = tuple(ir.Assign(event.hit, ir.BoolLiteral(False)) for event in events)
-        return (*first, ir.If(tuple(already), (*armed, call, *off)))
+    def quiet(self, body: ir.Body) -> ir.Body:
+        """The statements with nothing that concerns the task, which has ended."""
+        done: list[ir.Statement] = []
+        for statement in body:
+            if self.is_control(statement):
+                done += [ir.Nothing(origin=statement.origin)] if statement.origin.comments else []
+            else:
+                done.append(inside(statement, self.quiet))
+        return tuple(done)
 
 
 def _standing(body: ir.Body) -> ir.Body:
@@ -233,17 +269,6 @@ def _standing(body: ir.Body) -> ir.Body:
         if stops and not isinstance(body[at + 1] if at + 1 < len(body) else None, ir.Move):
             done.append(ir.WaitForMotion(origin=tidy(statement.origin)))
     return tuple(done)
-
-
-def _first(before: ir.Body, start: ir.TaskControl) -> ir.Body:
-    """The remarks of the start stand at the first statement."""
-    if not start.origin.comments:
-        return before
-    return (ir.Nothing(origin=start.origin), *before)
-
-
-def _rest(way: ir.Body) -> ir.Body:
-    return tuple(replace(one, origin=tidy(one.origin)) for one in way)
 
 
 __all__ = ["called_tasks"]
