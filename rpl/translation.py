@@ -215,7 +215,8 @@ def _translated(
     if source != target_name and not capabilities.carries_rules:
         report(unguarded(program, capabilities, collector.items[before:]), collector)
     losses = tuple(item for item in collector.items[before:] if item.severity == Severity.LOSS)
-    written, numbers, types = _with_signals(program, context), context.register_names, context.register_types
+    words = renamed if capabilities.io.signal_prefixes else {}
+    written, numbers, types = _with_signals(program, context, words), context.register_names, context.register_types
     names = named(program, renamed, bool(capabilities.storage.banks)) if source != target_name else {}
     groups = _groups(context) if names and capabilities.storage.banks else {}
     given = NameMap(target_name, names, {**numbers, **groups, **_signals(context, renamed)}, types).behind(earlier)
@@ -289,14 +290,18 @@ def _each_once(files: Sequence[OutputFile], program: ir.Program, diagnostics: Di
     return list(kept.values())
 
 
-def _with_signals(program: ir.Program, context: Context) -> ir.Program:
-    """The program with the names of signals that have become numbers, for whoever compares or reads it."""
+def _with_signals(program: ir.Program, context: Context, words: Mapping[str, str]) -> ir.Program:
+    """The program with the names of signals that have become numbers, for whoever compares or reads it. `words`: names
+    of signals that are written in another way."""
     signals = [
         ir.SignalDeclaration(name, ir.Signal(kind, ir.IntLiteral(number)), scope="global")
         for (kind, number), name in sorted(context.register_names.items())
         if kind in ir.SIGNAL_KINDS
     ]
-    signals += [ir.SignalDeclaration(name, one, scope="global") for name, one in sorted(context.signal_groups.items())]
+    signals += [
+        ir.SignalDeclaration(words.get(name, name), one, scope="global")
+        for name, one in sorted(context.signal_groups.items())
+    ]
     if not signals or not program.modules:
         return program
     first = program.modules[0]

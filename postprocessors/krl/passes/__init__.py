@@ -8,6 +8,7 @@ from .changedplaces import changed_places
 from .groups import name_groups
 from .polledahead import polled_ahead
 from .roomytexts import roomy_texts
+from .signalnames import signals_by_name
 from .startbases import start_bases
 
 PASSES: tuple[Placed, ...] = (
@@ -16,4 +17,5 @@ PASSES: tuple[Placed, ...] = (
     Placed(start_bases, "settings", behind="explicit_to_modal"),
     Placed(polled_ahead, "storage", behind="ahead_readings"),
     Placed(roomy_texts, "storage", behind="truths_to_numbers"),
+    Placed(signals_by_name, "storage", behind="truths_to_numbers"),
 )

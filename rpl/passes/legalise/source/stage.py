@@ -29,6 +29,7 @@ from rpl.passes.legalise.source.rates import rates
 from rpl.passes.legalise.source.readports import read_ports
 from rpl.passes.legalise.source.sameunits import same_units
 from rpl.passes.legalise.source.settingparts import whole_settings
+from rpl.passes.legalise.source.signalwords import signal_words
 from rpl.passes.legalise.source.sourcelayout import source_layout
 from rpl.passes.legalise.source.steptimes import step_times
 from rpl.passes.legalise.source.texts.formats import formats
@@ -50,6 +51,7 @@ STAGE = Stage(
     "source",
     (
         kept_values_known,
+        signal_words,
         fixed_data,
         names_of_local_routines,
         source_layout,
