@@ -12,6 +12,7 @@ from rpl.passes.legalise.places.circles import circle_rules
 from rpl.passes.legalise.places.destinations import destinations
 from rpl.passes.legalise.places.externalplaces import external_places
 from rpl.passes.legalise.places.nextmove.joinedmoves import joined_moves
+from rpl.passes.legalise.places.nextmove.jointspeeds import joint_speeds
 from rpl.passes.legalise.places.nextmove.movetimes import move_times
 from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.places.nextmove.queuedwaits import queued_waits
@@ -42,6 +43,7 @@ STAGE = Stage(
         joined_moves,
         move_times,
         turning_times,
+        joint_speeds,
         error_routines,
         seen_joints,
         near_joints,

@@ -376,6 +376,8 @@ class _Explicit:
 
     def speed(self, move: ir.Move, known: Environment, own: dict[str, ir.Expression]) -> ir.Speed:
         values = {**known, **own}
+        if move.kind == "joint" and "path_speed" in own and "joint_speed" not in own:
+            return ir.Speed(profile=_speed(own["path_speed"], _real(_USUAL_TURN_DEG_S)))
         if move.kind == "joint":
             percent = values.get("joint_speed")
             shown = percent.value if isinstance(percent, ir.RealLiteral | ir.IntLiteral) else "the modal"
