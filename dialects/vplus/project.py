@@ -174,9 +174,15 @@ class _Finish:
             for datum, _ in section.values
             if not datum.indices
         }
+        lines = {
+            significant(datum.name): part.origin
+            for section in file.data
+            for datum, part in section.values
+            if not datum.indices
+        }
         declared: list[ir.Declaration] = list(file.comments)
         for key, name in names:
-            origin = self.symbols.entries["", key].origin
+            origin = lines.get(key) or self.symbols.entries["", key].origin
             at = Origin(origin.source, origin.start, origin.end)
             type = self.symbols.type("", name)
             off = ir.BoolLiteral(False) if isinstance(type, ir.BoolType) else ir.IntLiteral(0)

@@ -20,6 +20,7 @@ from rpl.sidefiles import CONTROLLER, DATA, PAGE, TRACE, side_file
 from rpl.source import read_bytes, source_from_bytes
 
 MANIFEST = ".rpl-written.json"
+BEFORE = ".rpl-before"  # what somebody had changed, before it was written anew
 _FORCE = "rpl.force"
 # Parameters of commands that name what is read.
 _INPUTS = ("paths", "a", "b", "log", "cell", "robot", "robots", "to_robot", "controller")
@@ -90,6 +91,24 @@ def write_files(files: Mapping[Path, bytes], ours: Sequence[Path | None] = ()) -
     finally:
         for part, _ in made:
             part.unlink(missing_ok=True)
+
+
+def kept_before(paths: Sequence[Path]) -> tuple[Path, ...]:
+    """Those of these files that were written here and have been changed by somebody since. A copy of each stays in the
+    folder `.rpl-before` beside it, so that they may be written anew. Raises UsageError when that fails."""
+    changed = [
+        path
+        for path in paths
+        if _is_file(path) and path.name in (kept := _manifest(path.parent)) and not _is_ours(path, kept)
+    ]
+    for path in changed:
+        copy = path.parent / BEFORE / path.name
+        try:
+            copy.parent.mkdir(exist_ok=True)
+            copy.write_bytes(path.read_bytes())
+        except OSError as error:
+            raise UsageError(f"cannot write {copy}: {error.strerror or error}") from None
+    return tuple(changed)
 
 
 def _give(path: Path, data: bytes) -> None:

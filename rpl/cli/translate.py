@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rpl import registry
-from rpl.cli.files import force_option, refuse_others, stale, write_files
+from rpl.cli.files import BEFORE, force_option, kept_before, refuse_others, stale, write_files
 from rpl.cli.output import (
     STANDARD_INPUT,
     collector,
@@ -76,6 +76,12 @@ OK, NO, GUARDED = 0, 1, 3
     help="Keep the names and numbers in this file (map.toml of an earlier run, edited or not) and add the new ones.",
 )
 @click.option(
+    "--keep-taught",
+    "keeping",
+    is_flag=True,
+    help="Keep what was taught anew in the files of DIR since they were written; values stand in the map.",
+)
+@click.option(
     "--option", "options", multiple=True, metavar="NAME=VALUE", help="An option of the target language; repeatable."
 )
 @click.option(
@@ -100,6 +106,7 @@ def command(
     output: Path | None,
     proving: bool,
     chosen: Path | None,
+    keeping: bool,
     options: Sequence[str],
     templates: Path | None,
     sheet: Path | None,
@@ -125,7 +132,8 @@ def command(
     robots_exist(*arms)
     _certifiable(kept, paths, output)
     sheet_can_be_written(sheet)
-    house, earlier = _house(templates, target), _earlier(chosen)
+    _keepable(keeping, output, kept)
+    house, earlier = _house(templates, target), _earlier(chosen, output if keeping else None)
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
     read = read_paths(paths, dialect, diagnostics)
@@ -135,12 +143,14 @@ def command(
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
         translation = _translated(read, target, arms, diagnostics, earlier, about.pop("backup"), own, around, house)
+        if keeping and output is not None:
+            translation = _with_floor(translation, target, output, earlier, diagnostics)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
         return _refuse(read, diagnostics, as_json)
     proving = proving or _asks(about) or kept is not None
-    written = _put(translation, target, output, (chosen, kept), proving, as_json)
+    written = _put(translation, target, output, (chosen, kept), proving, as_json, keeping)
     about |= {"a": paths[0], "b": str(output), "language_a": dialect, "language_b": target}
     asked = _question(accepted, diagnostics.items[before:], about)
     proof = _prove(read, translation, asked, output, kept) if proving else None
@@ -167,11 +177,34 @@ def _house(templates: Path | None, target: str) -> Mapping[str, str] | None:
     return None if templates is None else house_files(templates, target, registry.target_names())
 
 
-def _earlier(chosen: Path | None) -> NameMap:
-    """The names and numbers that are kept; none where there is no such file yet."""
-    from rpl.writing.namemap import NameMap, read_map
+def _earlier(chosen: Path | None, kept: Path | None) -> NameMap:
+    """The names and numbers that are kept; none where there is no such file yet. kept: a folder whose map counts where
+    no other is chosen."""
+    from rpl.writing.namemap import FILE_NAME, NameMap, read_map
 
-    return read_map(chosen) if chosen is not None and chosen.exists() else NameMap()
+    home = chosen if chosen is not None else kept / FILE_NAME if kept is not None else None
+    return read_map(home) if home is not None and home.exists() else NameMap()
+
+
+def _keepable(keeping: bool, output: Path | None, certificate: Path | None) -> None:
+    """Raises UsageError where nothing can be kept, or where a proof would be about other values than the files have."""
+    if keeping and output is None:
+        raise UsageError("--keep-taught keeps what was taught in the files of a folder: name it with -o")
+    if keeping and certificate is not None:
+        raise UsageError(
+            "--certificate is about the source's points, and --keep-taught writes others: prove --teach "
+            "says whether they mean the same"
+        )
+
+
+def _with_floor(
+    translation: Translation, target: str, output: Path, earlier: NameMap, diagnostics: Diagnostics
+) -> Translation:
+    """The translation with what was taught anew in the folder, and a map that tells the values."""
+    from rpl.proof.teaching.floor import with_floor
+
+    floor = with_floor(translation.files, target, output, earlier.taught, diagnostics)
+    return replace(translation, files=floor.files, map=replace(translation.map, taught=floor.values))
 
 
 def _translated(
@@ -301,19 +334,25 @@ def _put(
     named: tuple[Path | None, Path | None],
     proving: bool,
     as_json: bool,
+    keeping: bool,
 ) -> list[dict[str, object]]:
     """Write the result into its folder; without one give the text of what is printed."""
     alone = output is None and not as_json
     shown = _printed(translation, target, proving) if alone else translation.files
     _alone(named[1], output, translation.files, target)
-    return _write(shown, output, translation.map, named)
+    return _write(shown, output, translation.map, named, keeping)
 
 
 def _write(
-    files: Sequence[OutputFile], output: Path | None, given: NameMap, named: tuple[Path | None, Path | None]
+    files: Sequence[OutputFile],
+    output: Path | None,
+    given: NameMap,
+    named: tuple[Path | None, Path | None],
+    keeping: bool,
 ) -> list[dict[str, object]]:
     """Write the files, with the map of names and numbers beside them or in the place that is `named` for it; give their
-    text when no folder is named. The second of `named` is the certificate, which is written later."""
+    text when no folder is named. The second of `named` is the certificate, which is written later. keeping: what was
+    taught anew in the files that are there is in the new ones already, so these take their place."""
     from rpl.writing.namemap import FILE_NAME, map_text
 
     chosen, kept = named
@@ -323,13 +362,17 @@ def _write(
         inside = PurePosixPath(file.path)
         if inside.is_absolute() or ".." in inside.parts:
             raise UsageError(f"the name {file.path!r} leads out of the output folder: nothing is written under it")
-    beside = {home: map_text(given).encode("utf-8")} if home is not None and (given.names or given.numbers) else {}
+    told = given.names or given.numbers or given.taught
+    beside = {home: map_text(given).encode("utf-8")} if home is not None and told else {}
     if output is None:
         write_files(beside, ours=(chosen,))
         return [{"path": file.path, "text": _text(file)} for file in files]
     written = {output / PurePosixPath(file.path): file.data for file in files}
     written |= beside
-    write_files(written, ours=(chosen,))
+    changed = kept_before(list(written)) if keeping else ()
+    write_files(written, ours=(chosen, *changed))
+    for path in changed:
+        say(f"rpl: {path} as it was is in {path.parent / BEFORE}", err=True)
     own = [path for path in written if path.is_relative_to(output)]
     for old in stale(output, [*own, *([kept] if kept is not None else [])]):
         say(f"warning: {old} is left of an earlier translation", err=True)

@@ -19,10 +19,11 @@ from rpl.source import read_bytes
 from rpl.tomlfile import TomlError, read_toml
 
 FILE_NAME = "map.toml"
-_KEYS = ("target", "names", "numbers")
+_KEYS = ("target", "names", "numbers", "taught")
 _HEAD = """# What this translation has named and numbered. `rpl translate --map` of this file keeps all of it.
 # Write another name or number to choose it; delete a line to have it chosen anew.
 """
+_TAUGHT = "# Taught data as written, so that --keep-taught sees what was touched up since. Not to be edited."
 _SHOWN = 60  # signs of a key in a complaint
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _NUMBER = re.compile(r"0|[1-9][0-9]{0,8}")  # no bank has more than a few thousand
@@ -34,7 +35,8 @@ Numbers = Mapping[tuple[str, int], str]
 class NameMap:
     """`names`: of the source -> in the result. `numbers`: (bank, number) -> name in the source; banks are those of the
     target (`R`), of its programs (`main.P`) and kinds of signals (`digital_out`). `types` of what has the numbers, for
-    readers. `target`: the language of the result. `path` and `text` of the file, for complaints."""
+    readers. `target`: the language of the result. `path` and `text` of the file, for complaints. `taught`: values of
+    taught data as they were written, by what tells them apart, where they are to be kept (proof.teaching.floor)."""
 
     target: str = ""
     names: Mapping[str, str] = field(default_factory=dict)
@@ -42,6 +44,7 @@ class NameMap:
     types: Numbers = field(default_factory=dict)
     path: str = ""
     text: str = ""
+    taught: Mapping[str, str] = field(default_factory=dict)
 
     def complaint(self, table: str, key: str, reason: str) -> UsageError:
         """What is wrong with a key of the file, and where."""
@@ -83,6 +86,9 @@ def map_text(given: NameMap) -> str:
             lines += ["", f"[numbers.{_key(bank)}]"]
         type = given.types.get(at, "")
         lines.append(f"{at[1]} = {_quoted(given.numbers[at])}" + (f"  # {type}" if type else ""))
+    if given.taught:
+        lines += ["", _TAUGHT, "[taught]"]
+        lines += [f"{_key(name)} = {_quoted(value)}" for name, value in sorted(given.taught.items())]
     return "\n".join(lines) + "\n"
 
 
@@ -109,7 +115,8 @@ def parse_map(text: str, path: str = "map") -> NameMap:
             if not _NUMBER.fullmatch(number):
                 raise _complaint(path, text, where, number, 'a line has a whole number and a name: 12 = "count"')
             numbers[bank, int(number)] = name
-    return NameMap(target, names, numbers, path=path, text=text)
+    taught = _texts(table.get("taught", {}), "taught", path, text)
+    return NameMap(target, names, numbers, path=path, text=text, taught=taught)
 
 
 def _texts(rows: object, table: str, path: str, text: str) -> dict[str, str]:

@@ -28,7 +28,7 @@ def test_what_is_written_is_read_back() -> None:
     [
         ("", "m.toml: target: a map begins"),
         ("target = 3", "m.toml:1: target: a map begins"),
-        ("target = \"tp\"\n[cell]\n", "m.toml:2: cell: a map has target, names, numbers"),
+        ("target = \"tp\"\n[cell]\n", "m.toml:2: cell: a map has target, names, numbers, taught"),
         ("target = \"tp\"\n[numbers.R]\nx = \"a\"\n", "m.toml:3: x: a line has a whole number and a name"),
         ("target = \"tp\"\n\n[numbers.R]\n1 = \"a\"\n2 = 3\n", "m.toml:5: 2: behind the sign = stands a name"),
         ("target = \"tp\"\n[numbers.\"a.P\"]\n4 = \"\"\n", "m.toml:3: 4: behind the sign = stands a name"),

@@ -3,8 +3,9 @@
 One controller says how much of their speed the axes use, another how fast the tool goes at most. What one is in the
 other hangs on the arm and on the move, so it is worked out for each move whose ends are known: the tool's way along the
 even motion of the axes, and the time that the slowest of them needs for it. The speed that is written is the one with
-which the move is as fast, ramps apart. Moves whose ends the run decides get what is usual in the same program, or what the arm's
-first axis does. The ends stand here as the source says them, so this is before postures are chosen for the target.
+which the move is as fast, ramps apart. Moves whose ends the run decides get what is usual in the same program, or what
+the arm's first axis does. The ends stand here as the source says them, so this is before postures are chosen for the
+target.
 """
 
 from __future__ import annotations
