@@ -29,7 +29,7 @@ from . import tables
 
 CAPABILITIES = Capabilities(
     statements=tables.words(
-        """Assign CallRoutine If Switch For While Repeat Loop ExitLoop Return Wait WaitUntil WaitForMotion StopMotion
+        """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Return Wait WaitUntil WaitForMotion StopMotion
         StartMotion ClearMotion Halt Pulse Message TaskControl Nothing Move Vendor Opaque"""
     ),
     functions=frozenset(
@@ -74,15 +74,16 @@ CAPABILITIES = Capabilities(
             "group_in": "gi",
             "group_out": "go",
         },
+        pulses=frozenset(),
         timers=99,  # numbers that the passes choose from: each is a variable of the program
         wait_timeout=True,
         waits_at_rest=False,
         poll_s=0.004,
     ),
-    texts=Texts(rules=frozenset((TextRule.CASE, TextRule.PRINTABLE))),
+    texts=Texts(rules=frozenset((TextRule.CASE, TextRule.PARTS, TextRule.PRINTABLE))),
     data=Data(aggregates=frozenset((Aggregate.NAMED,)), composites=frozenset((Composite.ARRAYS,)), rules=frozenset()),
     routines=Routines(
-        functions=False, text_results=False, passing=frozenset((Passing.REFERENCES,)), local_routines=False
+        functions=False, passing=frozenset((Passing.REFERENCES,)), local_routines=False
     ),
     errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE, Fault.INDEX_FRACTION))),
     control=Control(

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
+from .components import components_in_variables
+from .exits import loops_left_by_flags
 from .pulses import pulses_as_tasks
 from .timers import timers_by_the_clock
 from .waits import waits_put_in
 
 PASSES: tuple[Placed, ...] = (
+    Placed(components_in_variables, "records", behind="arithmetic"),
     Placed(timers_by_the_clock, "storage", before="drop_unused"),
+    Placed(loops_left_by_flags, "storage", behind="number_data"),
     Placed(waits_put_in, "storage", behind="number_data"),
     Placed(pulses_as_tasks, "storage", behind="number_data"),
 )

@@ -1,7 +1,7 @@
 """Functions, conversions and operators of numbers that a weak target lacks, by functions in terms of what it has.
 
 Runs behind everything that makes formulas (geometry, products of poses) and before functions become procedures. Targets
-with variables by names have had their functions from the pass of numbers.
+with variables by names have had their functions from the pass of numbers, which rests on an angle of two numbers.
 """
 
 from __future__ import annotations
@@ -27,10 +27,11 @@ Parts = tuple[tuple[tuple[str, ir.Type], ...], ir.Type, tuple[tuple[str, ir.Type
         not context.capabilities.storage.banks
         and Limit.STEPS not in context.capabilities.control.limits
         and (Limit.FUNCTIONS_ALONE not in context.capabilities.control.limits)
+        and "atan2" in context.capabilities.functions
     )
 )
 def arithmetic(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets with numbered data or simple expressions."""
+    """Only for targets with numbered data or simple expressions, or without the angle of two numbers."""
     worker = _Arithmetic(program, context)
     done = worker.program()
     return with_support(done, context, (), tuple(worker.routines), done.modules[0].task if done.modules else "")
