@@ -29,8 +29,8 @@ from . import tables
 
 CAPABILITIES = Capabilities(
     statements=tables.words(
-        """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Return Wait WaitUntil WaitForMotion StopMotion
-        StartMotion ClearMotion Halt Pulse Message TaskControl Nothing Move Vendor Opaque"""
+        """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Return Wait WaitUntil
+        WaitForMotion StopMotion StartMotion ClearMotion Halt Pulse Message TaskControl Nothing Move Vendor Opaque"""
     ),
     functions=frozenset(
         (

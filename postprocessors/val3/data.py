@@ -15,7 +15,8 @@ from . import tables
 
 @dataclass(slots=True)
 class Datum:
-    """One datum: its type, the attributes of each element as text, and where it hangs (`fatherId`)."""
+    """One datum: its type, the attributes of each element as text, and the frame or tool that it hangs on (`fatherId`; an element
+    of a list with its number)."""
 
     name: str
     type: str
@@ -31,9 +32,9 @@ class Datum:
     @property
     def rows(self) -> list[str]:
         """The attributes of each element with its father."""
+        father = f'fatherId="{self.father if self.father.endswith("]") else f"{self.father}[0]"}"' if self.father else ""
         values = self.values or ([""] if self.father else [])
-        return [" ".join(part for part in (value, f'fatherId="{self.father}"' if self.father else "") if part)
-                for value in values]  # fmt: skip
+        return [" ".join(part for part in (value, father) if part) for value in values]
 
 
 class Store:

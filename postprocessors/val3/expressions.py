@@ -144,7 +144,7 @@ class Expressions:
 
     def taught(self, value: ir.Aggregate, father: str = "world") -> str:
         """A point that is written out: data with its numbers."""
-        return self.store.once("pPoint", "pointRx", point_row(value, self.scope), f"{father}[0]")
+        return self.store.once("pPoint", "pointRx", point_row(value, self.scope), father)
 
     def system(self, name: str) -> str | Printed:
         match name:
@@ -291,7 +291,7 @@ class Expressions:
         if isinstance(known, rigid.Pose):
             if known == rigid.IDENTITY:
                 return root
-            return self.store.once(wish, role, pose_row(known), f"{root}[0]")
+            return self.store.once(wish, role, pose_row(known), root)
         raise CannotSayError(f"a {role} that is worked out at the movement")
 
 

@@ -82,12 +82,13 @@ class Motion:
     def hung(self, value: ir.Expression | None, role: str, root: str) -> str:
         """The name of the tool or frame; one that is worked out is put into a helper."""
         try:
-            return self.expressions.tool(value) if role == "tool" else self.expressions.frame(value)
+            name = self.expressions.tool(value) if role == "tool" else self.expressions.frame(value)
         except CannotSayError:
-            assert value is not None  # None has a name
-            name = self.store.helper("tMove" if role == "tool" else "fMove", role, f"{root}[0]")
+            name = ""
+        if value is not None and (not name or (role == "frame" and is_chosen(value))):  # None has a name
+            name = self.store.helper("tMove" if role == "tool" else "fMove", role, root)
             self.before.append(f"{name}.trsf={self.expressions.text(value)}")
-            return name
+        return name
 
     def joints(self, target: ir.Expression) -> str:
         if isinstance(target, ir.Name | ir.Index):
@@ -109,14 +110,14 @@ class Motion:
         e = self.expressions
         if isinstance(target, ir.Aggregate):
             try:
-                return self.store.once("pPoint", "pointRx", point_row(target, e.scope), f"{frame}[0]")
+                return self.store.once("pPoint", "pointRx", point_row(target, e.scope), frame)
             except CannotSayError:
                 pass
         elif e.is_point(target) and e.father(target) == frame:
             return e.point(target)
         root = origin_of(target) if e.is_point(target) else None
         # A point whose configuration nothing sets keeps the one it is made with: as at the start of the movement.
-        name = self.store.helper(wish if root is not None else f"{wish}Any", "pointRx", f"{frame}[0]")
+        name = self.store.helper(wish if root is not None else f"{wish}Any", "pointRx", frame)
         self.before.append(f"{name}.trsf={e.text(target)}")
         if root is not None:
             self.before.append(f"{name}.config={e.storage(root)}.config")
@@ -164,6 +165,11 @@ class Motion:
         for component in ("leave", "reach") if blend != "off" else ():
             self.before.append(f"{name}.{component}={self.expressions.text(distance)}")
         return name
+
+
+def is_chosen(frame: ir.Expression) -> bool:
+    """Does the run decide which frame of a list it is? A point hangs on one that is named in the data."""
+    return isinstance(frame, ir.Index) and not all(isinstance(one, ir.IntLiteral) for one in frame.indices)
 
 
 def origin_of(target: ir.Expression) -> ir.Expression | None:

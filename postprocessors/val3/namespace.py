@@ -1,17 +1,21 @@
 """Data of several modules in one application, whose programs all see all its data: two of one name are told apart.
 
-What other modules can see keeps its name, else the first module's does; the others' get a number behind it.
+What other modules can see keeps its name, else the first module's does; the others' get a number behind it. Taught
+points are data of the application, which the pendant shows and teaches anew: those of a routine too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import TypeGuard
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 
 from .tables import LONGEST_NAME, RESERVED
+
+_NUMBERS = (ir.IntLiteral, ir.RealLiteral)
 
 
 def one_namespace(program: ir.Program) -> ir.Program:
@@ -33,15 +37,54 @@ def one_namespace(program: ir.Program) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
-def names_of(program: ir.Program) -> set[str]:
-    """Every name that the program declares or gives a signal."""
+def points_in_data(program: ir.Program) -> ir.Program:
+    """The program with the taught points of its routines as data; of two of one name the later one has its routine's
+    name behind it."""
+    own = [one.name for m in program.modules for r in m.routines for one in r.declarations if _is_taught(one)]
+    if not own:
+        return program
+    taken = names_of(program, locals=False) | RESERVED
+    shadowed = {one.name for m in program.modules for r in m.routines for one in r.parameters}
+    shadowed |= {one.name for m in program.modules for r in m.routines for one in r.declarations
+                 if isinstance(one, ir.Variable) and not _is_taught(one)}  # fmt: skip
+    taken |= shadowed
+    modules = []
+    for module in program.modules:
+        points: list[ir.Variable] = []
+        routines = []
+        for routine in module.routines:
+            new: dict[str, str] = {}
+            for one in routine.declarations:
+                if _is_taught(one):
+                    wish = one.name if one.name not in taken else f"{one.name}_{routine.name}"[:LONGEST_NAME]
+                    new[one.name] = wish if wish not in taken else _free(wish, taken)
+                    taken.add(new[one.name])
+                    points.append(replace(one, name=new[one.name], scope="module"))
+            left = tuple(one for one in routine.declarations if not _is_taught(one))
+            changed = {old: name for old, name in new.items() if old != name}
+            routines.append(rewrite(replace(routine, declarations=left), _exchanging(changed)))
+        declarations = (*module.declarations, *points)
+        modules.append(replace(module, declarations=declarations, routines=tuple(routines)))
+    return replace(program, modules=tuple(modules))
+
+
+def _is_taught(declaration: object) -> TypeGuard[ir.Variable]:
+    """A constant place or posture of a routine, written out in numbers."""
+    match declaration:
+        case ir.Variable(storage="constant", type=ir.TargetType() | ir.JointsType(), initial=ir.Aggregate(entries)):
+            return all(isinstance(one, _NUMBERS) for _, one in entries)
+    return False
+
+
+def names_of(program: ir.Program, locals: bool = True) -> set[str]:
+    """Every name that the program declares or gives a signal. locals: those of routines' own data too."""
     found: set[str] = set()
     for module in program.modules:
         found.update(str(getattr(declaration, "name", "")) for declaration in module.declarations)
         for routine in module.routines:
             found.add(routine.name)
             found.update(parameter.name for parameter in routine.parameters)
-            found.update(str(getattr(declaration, "name", "")) for declaration in routine.declarations)
+            found.update(str(getattr(one, "name", "")) for one in routine.declarations if locals)
     found.update(node.name or "" for node in walk(*program.modules) if isinstance(node, ir.Signal))
     return found
 

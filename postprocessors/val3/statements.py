@@ -230,7 +230,7 @@ class Statements:
         e = self.expressions
         if e.father(value) == "world":
             return e.point(value)
-        name = e.store.helper(f"pGiven{at + 1}", "pointRx", "world[0]")
+        name = e.store.helper(f"pGiven{at + 1}", "pointRx", "world")
         before.append(f"{name}.trsf={self.text(value)}")
         before.append(f"{name}.config={e.storage(value)}.config")
         return name
@@ -290,7 +290,7 @@ class Statements:
         if e.is_point(value):
             source = e.point(value)
             if not isinstance(value, ir.Name | ir.Index):
-                helper = e.store.helper("pTaken", "pointRx", f"{e.father(value)}[0]")
+                helper = e.store.helper("pTaken", "pointRx", e.father(value))
                 lines, source = [f"{helper}={source}"], helper
                 place = f"{source}.trsf"
             configuration = f"{source}.config"

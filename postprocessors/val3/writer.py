@@ -17,7 +17,7 @@ from rpl.writing.text import number_text
 from . import tables
 from .data import Datum, Store
 from .expressions import NULL, Expressions, point_row, pose_row, root_of
-from .namespace import names_of, one_namespace
+from .namespace import names_of, one_namespace, points_in_data
 from .statements import Statements, indented
 
 UNLINKED = code(
@@ -34,7 +34,7 @@ _ATTRIBUTE_SIGNS = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "
 
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All files of the application. Raises InternalError when a node was neither written nor reported."""
-    return _Application(one_namespace(program), context).files()
+    return _Application(points_in_data(one_namespace(program)), context).files()
 
 
 class _Application:
@@ -57,7 +57,7 @@ class _Application:
                 self.declaration(declaration, expressions)
         for datum in self.store.data.values():
             if datum.father.partition("[")[0] not in ("", "world", "flange", *self.store.data):
-                datum.father = "world[0]"  # no movement to it is written
+                datum.father = "world"  # no movement to it is written
         programs: dict[str, str] = {}
         for module in self.program.modules:
             for routine in module.routines:
@@ -115,9 +115,9 @@ class _Application:
             raise CannotSayError(f"there is no type {type.__class__.__name__}")
         father = ""
         if word in ("frame", "tool"):
-            father = "world[0]" if word == "frame" else "flange[0]"
+            father = "world" if word == "frame" else "flange"
         elif word == "pointRx":
-            father = f"{self.fathers.get(variable.name, 'world')}[0]"
+            father = self.fathers.get(variable.name, "world")
         values = _elements(variable.initial, size)
         rows = [self.row(type, value, scope) for value in values]
         return Datum(variable.name, word, rows if any(rows) else [], size, father)
@@ -187,7 +187,7 @@ class _Application:
         lost: set[str] = set()
         for declaration in routine.declarations:
             try:
-                lines.extend(self.local(declaration, expressions, locals_))
+                lines.extend(self.local(declaration, statements, locals_))
                 self.ledger.written(declaration)
             except CannotSayError as error:
                 name = str(getattr(declaration, "name", "this"))
@@ -238,9 +238,10 @@ class _Application:
         return parameter.name, word, form, parameter.mode == "reference"
 
     def local(
-        self, declaration: ir.Declaration, expressions: Expressions, found: list[tuple[str, str, int]]
+        self, declaration: ir.Declaration, statements: Statements, found: list[tuple[str, str, int]]
     ) -> list[str]:
         """A routine's own datum, and what gives it its first value."""
+        expressions = statements.expressions
         match declaration:
             case ir.Unread(text=""):
                 return []
@@ -250,13 +251,15 @@ class _Application:
                 if word is None:
                     raise CannotSayError(f"there is no type {type.__class__.__name__}")
                 found.append((name, word, size))
-                if size != 1:
-                    values = _elements(initial, size) if initial is not None else []
-                    return [f"{name}[{at}]={expressions.text(v)}" for at, v in enumerate(values) if v is not None]
                 if initial is None or _is_zero(initial):
                     return []
-                place = expressions.text(ir.Name(name))
-                return [f"{place}={expressions.text(initial)}"]
+                if size == 1:
+                    return statements.assigned(ir.Name(name), initial)
+                lines = []
+                for at, value in enumerate(_elements(initial, size)):
+                    if value is not None:
+                        lines.extend(statements.assigned(ir.Index(ir.Name(name), (ir.IntLiteral(at),)), value))
+                return lines
         raise CannotSayError(f"there is no {declaration.__class__.__name__}")
 
 
@@ -306,10 +309,7 @@ def _fathers(program: ir.Program, roles: dict[str, str]) -> dict[str, str]:
     for node in walk(*program.modules):
         match node:
             case ir.Move(target=target, via=via, frame=frame):
-                named = isinstance(frame, ir.Name) and roles.get(frame.id) == "frame"
-                father = frame.id if isinstance(frame, ir.Name) and named else "world"
-                if frame is not None and frame != NULL and not named:
-                    father = ""  # a frame without a name of its own
+                father = "world" if frame is None or frame == NULL else _named_frame(frame, roles)
                 for point in (target, via):
                     if point is not None:
                         used.setdefault(_point(point), set()).add(father)
@@ -320,6 +320,16 @@ def _fathers(program: ir.Program, roles: dict[str, str]) -> dict[str, str]:
     data = {d.name for m in program.modules for d in m.declarations if isinstance(d, ir.Variable)}
     single = {name: next(iter(frames)) for name, frames in used.items() if len(frames) == 1 and name in data}
     return {name: father for name, father in single.items() if father not in ("", "world")}
+
+
+def _named_frame(frame: ir.Expression, roles: dict[str, str]) -> str:
+    """The frame as data name it; empty for one without a name of its own."""
+    match frame:
+        case ir.Name(id=name) if roles.get(name) == "frame":
+            return name
+        case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=at),)) if roles.get(name) == "frame":
+            return f"{name}[{at}]"
+    return ""
 
 
 def _point(value: ir.Expression) -> str:
