@@ -103,8 +103,8 @@ class Builder:
             if declared.kind not in ("dio", "aio", "config"):
                 self.diagnostics.report(UNKNOWN_TYPE, block.open.origin, name=declared.name, kind=declared.kind)
             return
-        initial = zero(declared.kind, declared.size)
-        yield ir.Variable(declared.name, sized(type, declared.size), initial, scope="routine")
+        initial = zero(declared.kind, declared.sizes)
+        yield ir.Variable(declared.name, sized(type, declared.sizes), initial, scope="routine")
 
 
 def _parameter(declared: Declared, body: ir.Body) -> ir.Parameter:
@@ -116,20 +116,20 @@ def _parameter(declared: Declared, body: ir.Body) -> ir.Parameter:
         kind = f"{'digital' if declared.kind == 'dio' else 'analog'}_{'out' if out else 'in'}"
         return ir.Parameter(declared.name, ir.SignalType(kind))
     type = TYPES.get(declared.kind, ir.VendorType("val3", declared.kind))
-    mode = "reference" if declared.reference or declared.size != 1 else "value"
-    return ir.Parameter(declared.name, sized(type, declared.size), mode)
+    mode = "reference" if declared.reference or declared.sizes != (1,) else "value"
+    return ir.Parameter(declared.name, sized(type, declared.sizes), mode)
 
 
-def sized(type: ir.Type, size: int) -> ir.Type:
-    """The type of a datum of so many elements; 0: as many as are given."""
-    if size == 1:
+def sized(type: ir.Type, sizes: tuple[int, ...]) -> ir.Type:
+    """The type of a datum of so many elements in each dimension; 0: as many as are given."""
+    if sizes == (1,):
         return type
-    return ir.ArrayType(type, (ir.IntLiteral(size - 1) if size else None,), base=0)
+    return ir.ArrayType(type, tuple(ir.IntLiteral(size - 1) if size else None for size in sizes), base=0)
 
 
-def zero(kind: str, size: int) -> ir.Expression | None:
+def zero(kind: str, sizes: tuple[int, ...] = (1,)) -> ir.Expression | None:
     """What local data begins with."""
-    if size != 1:
+    if sizes != (1,):
         return None
     match kind:
         case "num":

@@ -187,7 +187,8 @@ class Calls(Expressions):
         value, is_array = self.named(str(tree.children[0]))
         datum = self.facts.data.get(str(tree.children[0]))
         if datum is not None:
-            return Value(ir.IntLiteral(datum.size), "num")
+            which = number_of(self.number(items[1])) if len(items) > 1 else 1
+            return Value(ir.IntLiteral(datum.sizes[int(which or 1) - 1]), "num")
         return Value(self.built("length", value.node) if is_array else ir.IntLiteral(1), "num")
 
     def clock(self, items: list[SyntaxTree]) -> Value:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as Xml
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from math import prod
 
 from rpl.source import Source
 
@@ -27,17 +28,22 @@ _FATHER = re.compile(r"([A-Za-z_]\w*)(?:\[(\d+)\])?$")
 
 @dataclass(frozen=True, slots=True)
 class Datum:
-    """One datum. values: attributes of each element by its number, with neutral names; father: name and number of the
-    frame or tool that points, frames and tools are given in (empty: world or flange); start, end: its place."""
+    """One datum. sizes: of each dimension; values: attributes of each element by its number, the last dimension first,
+    with neutral names; father: name and number of the frame or tool that points, frames and tools are given in (empty:
+    world or flange); start, end: its place."""
 
     name: str
     kind: str
-    size: int
+    sizes: tuple[int, ...]
     values: Mapping[int, Mapping[str, str]] = field(default_factory=dict)
     father: tuple[str, int] = ("", 0)
     start: int = 0
     end: int = 0
-    dimensions: int = 1
+
+    @property
+    def size(self) -> int:
+        """How many elements there are."""
+        return prod(self.sizes)
 
 
 def data_of(source: Source) -> Iterator[Datum]:
@@ -56,10 +62,7 @@ def data_of(source: Source) -> Iterator[Datum]:
         start = source.text.rfind("<", 0, start) if start >= 0 else at
         at = max(at, start + 1)
         end = source.text.find("\n", start)
-        yield Datum(
-            made.name, made.kind, made.size, made.values, made.father, start, end if end > start else start,
-            made.dimensions,
-        )  # fmt: skip
+        yield replace(made, start=start, end=end if end > start else start)
 
 
 _OLD = frozenset(
@@ -82,19 +85,29 @@ def _father(text: str) -> tuple[str, int]:
 
 
 def _new(element: Xml.Element) -> Datum:
-    """`<Data name type size="n" or "n,m"><Value key="0" .../></Data>`."""
-    sizes = [int(part) for part in re.findall(r"\d+", element.get("size", "1"))] or [1]
+    """`<Data name type size="n" or "n,m"><Value key="0" or "0,0" .../></Data>`."""
+    sizes = tuple(int(part) for part in re.findall(r"\d+", element.get("size", "1"))) or (1,)
     values: dict[int, Mapping[str, str]] = {}
     father = ("", 0)
     for value in element:
-        key = value.get("key", "0")
-        if _tag(value) == "Value" and key.isdigit():
+        key = value.get("key", "0").split(",")
+        if _tag(value) == "Value" and all(part.strip().isdigit() for part in key):
             given = {_MDESC.get(name, name): text for name, text in value.attrib.items()}
             given["link"] = given.pop("ioLink", given.get("link", ""))
-            values[int(key)] = given
+            values[_number(tuple(map(int, key)), sizes)] = given
             father = _father(given.get("fatherId", "")) if father[0] == "" else father
     word = element.get("type", "")
-    return Datum(element.get("name", ""), KINDS.get(word, word), sizes[0], values, father, dimensions=len(sizes))
+    return Datum(element.get("name", ""), KINDS.get(word, word), sizes, values, father)
+
+
+def _number(key: tuple[int, ...], sizes: tuple[int, ...]) -> int:
+    """Which element a key names, counted with the last dimension first; a single number is that already."""
+    if len(key) != len(sizes):
+        return key[0]
+    at = 0
+    for part, size in zip(key, sizes, strict=True):
+        at = at * size + part
+    return at
 
 
 def _old(element: Xml.Element, tag: str) -> Datum:
@@ -113,4 +126,4 @@ def _old(element: Xml.Element, tag: str) -> Datum:
             values[int(child.get("index", "0"))] = given
     size = element.get("size", "")
     count = int(size) if size.isdigit() else max((*values, 0)) + 1
-    return Datum(element.get("name", ""), KINDS.get(tag, tag), count, values, father)
+    return Datum(element.get("name", ""), KINDS.get(tag, tag), (count,), values, father)

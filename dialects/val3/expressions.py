@@ -97,33 +97,32 @@ class Expressions:
 
     # ---- names
 
-    def named(self, name: str) -> tuple[Value, bool]:
-        """What a name means, and whether it is an array."""
+    def named(self, name: str) -> tuple[Value, int]:
+        """What a name means, and how many dimensions it has (0: it is a single datum)."""
         if name in self.own:
             declared = self.own[name]
             if declared.kind in ("dio", "aio"):
-                return Value(ir.Signal(self.direction(name, declared.kind), name=name), declared.kind), False
+                return Value(ir.Signal(self.direction(name, declared.kind), name=name), declared.kind), 0
             place = self.fathers.get(name, WORLD)
             node = ir.Name(name, origin=self.origin)
             if declared.kind in ("frame", "tool"):
                 place = node
-            return Value(node, declared.kind, place), declared.size != 1
+            return Value(node, declared.kind, place), len(declared.sizes) if declared.sizes != (1,) else 0
         if name in CONFIGURATIONS:
             flag = CONFIGURATIONS[name]
-            return Value(ir.IntLiteral(9 if flag is None else flag), "config"), False
+            return Value(ir.IntLiteral(9 if flag is None else flag), "config"), 0
         if name in ("world", "flange"):
-            return Value(WORLD, "frame" if name == "world" else "tool"), False
+            return Value(WORLD, "frame" if name == "world" else "tool"), 0
         datum = self.facts.data.get(name)
         if datum is None:
             if name in BLENDS:
-                return Value(ir.IntLiteral(BLENDS[name]), "num"), False
-            return Value(ir.Name(name, origin=self.origin)), False
-        if datum.dimensions > 1:
-            raise StatementError(f"{name} has more than one dimension", 0)
+                return Value(ir.IntLiteral(BLENDS[name]), "num"), 0
+            return Value(ir.Name(name, origin=self.origin)), 0
+        dimensions = len(datum.sizes) if datum.sizes != (1,) else 0
         if datum.kind in ("dio", "aio"):
-            return Value(ir.Signal(self.direction(name, datum.kind), name=name), datum.kind), datum.size > 1
+            return Value(ir.Signal(self.direction(name, datum.kind), name=name), datum.kind), dimensions
         node = ir.Name(name, origin=self.origin)
-        return Value(node, datum.kind, self.place_of(name)), datum.size > 1
+        return Value(node, datum.kind, self.place_of(name)), dimensions
 
     def place_of(self, name: str) -> ir.Expression:
         """Where a global point, frame or tool hangs: for frames and tools without themselves."""
@@ -144,11 +143,11 @@ class Expressions:
             place = composed(place, node)
         return place
 
-    def element(self, found: tuple[Value, bool]) -> Value:
+    def element(self, found: tuple[Value, int]) -> Value:
         """The value of a name; an array without an index is its first element."""
-        value, is_array = found
-        if is_array:
-            return self.at(value, ir.IntLiteral(0))
+        value, dimensions = found
+        if dimensions:
+            return self.at(value, *[ir.IntLiteral(0)] * dimensions)
         return self.hung(value)
 
     def hung(self, value: Value) -> Value:
@@ -158,23 +157,26 @@ class Expressions:
             return Value(value.node, value.kind, composed(value.place, value.node))
         return value
 
-    def at(self, value: Value, index: ir.Expression) -> Value:
+    def at(self, value: Value, *indices: ir.Expression) -> Value:
         if isinstance(value.node, ir.Signal):
-            if not isinstance(index, ir.IntLiteral):
+            index = indices[0]
+            if len(indices) > 1 or not isinstance(index, ir.IntLiteral):
                 raise StatementError("which signal of a list is meant has to be known when the program is read", 0)
             name = f"{value.node.name}{index.value}"
             return Value(ir.Signal(value.node.kind, name=name), value.kind)
-        return self.hung(Value(ir.Index(value.node, (index,), origin=self.origin), value.kind, value.place))
+        return self.hung(Value(ir.Index(value.node, indices, origin=self.origin), value.kind, value.place))
 
     def index(self, tree: SyntaxTree) -> Value:
         base, items = subtree(tree.children[0]), parts_of(tree.children[1])
-        if base.data != "name" or len(items) != 1:
-            raise StatementError("only lists of one dimension can be read", 0)
-        value, _ = self.named(str(base.children[0]))
-        given = self.value(items[0])
-        if given.kind == "string":
+        if base.data != "name":
+            raise StatementError("a list has a name here", 0)
+        value, dimensions = self.named(str(base.children[0]))
+        given = [self.value(item) for item in items]
+        if any(one.kind == "string" for one in given):
             raise StatementError("collections cannot be read", 0)
-        return self.at(value, given.node)
+        if len(given) != max(dimensions, 1):
+            raise StatementError(f"this list has {max(dimensions, 1)} dimensions", 0)
+        return self.at(value, *(one.node for one in given))
 
     def foreign(self, library: str, name: str) -> Value:
         """Data of a library: the signals of `io:` are those of the cell."""

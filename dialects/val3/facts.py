@@ -31,11 +31,12 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 
 @dataclass(frozen=True, slots=True)
 class Declared:
-    """A parameter or local datum: name, kind, elements (0: as many as are given), and whether it is a reference."""
+    """A parameter or local datum: name, kind, the elements of each dimension (0: as many as are given), and whether it
+    is a reference."""
 
     name: str
     kind: str
-    size: int = 1
+    sizes: tuple[int, ...] = (1,)
     reference: bool = False
 
 
@@ -82,10 +83,11 @@ def _declared(text: str) -> Declared:
     """One parameter or local of its XML attributes."""
     given: dict[str, str] = dict(_ATTRIBUTE.findall(text))
     word = given.get("type", "num")
-    sizes = re.findall(r"\d+", given.get("size", "1"))
-    size = 0 if given.get("xsi:type") == "array" and "size" not in given else int(sizes[0]) if sizes else 1
+    sizes = tuple(map(int, re.findall(r"\d+", given.get("size", "1")))) or (1,)
+    if given.get("xsi:type") == "array" and "size" not in given:
+        sizes = (0,) * int(given.get("dimensions", "1"))
     reference = given.get("use") == "reference" or "false" in (given.get("byVal"), given.get("byValue"))
-    return Declared(given.get("name", ""), KINDS.get(word, word), size, reference)
+    return Declared(given.get("name", ""), KINDS.get(word, word), sizes, reference)
 
 
 def facts_of(sources: Iterable[Source], data: Iterable[Datum]) -> Facts:

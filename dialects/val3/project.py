@@ -6,6 +6,7 @@ import re
 import xml.etree.ElementTree as Xml
 from collections.abc import Iterator, Sequence
 from functools import cache
+from math import prod
 from pathlib import PurePath, PureWindowsPath
 
 from rpl import ir
@@ -93,15 +94,20 @@ def _declared(datum: Datum, origin: Origin, facts: Facts, diagnostics: Diagnosti
     if datum.kind in ("dio", "aio") or (datum.kind == "mdesc" and datum.name not in facts.assigned):
         return
     type = TYPES.get(datum.kind)
-    if type is None or datum.dimensions > 1:
+    if type is None:
         diagnostics.report(UNKNOWN_TYPE, origin, name=datum.name, kind=datum.kind or "without a name")
         return
-    if datum.size == 1:
-        initial = _value(datum, 0)
-    else:
-        values = [_value(datum, index) for index in range(datum.size)]
-        initial = ir.Aggregate(tuple((None, value) for value in values if value is not None))
-    yield ir.Variable(datum.name, sized(type, datum.size), initial, "persistent", "global", origin=origin)
+    initial = _value(datum, 0) if datum.sizes == (1,) else _values(datum, 0, datum.sizes)
+    yield ir.Variable(datum.name, sized(type, datum.sizes), initial, "persistent", "global", origin=origin)
+
+
+def _values(datum: Datum, first: int, sizes: tuple[int, ...]) -> ir.Expression | None:
+    """The elements from one on as lists in lists, by these dimensions."""
+    if not sizes:
+        return _value(datum, first)
+    size, *inner = sizes
+    values = [_values(datum, first + at * prod(inner), tuple(inner)) for at in range(size)]
+    return ir.Aggregate(tuple((None, value) for value in values if value is not None))
 
 
 def _value(datum: Datum, index: int) -> ir.Expression | None:
@@ -128,4 +134,4 @@ def _value(datum: Datum, index: int) -> ir.Expression | None:
         case "mdesc":
             parts = descriptor_of(datum, index)
             return ir.Aggregate(tuple((name, real(parts[name])) for name in parts))
-    return zero(datum.kind, 1)
+    return zero(datum.kind)

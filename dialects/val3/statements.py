@@ -121,7 +121,7 @@ class Statements(Motion):
             raise StatementError(f"{header.name} takes {len(header.parameters)} arguments", 0)
         given: list[ir.Argument] = []
         for parameter, item in zip(header.parameters, items, strict=True):
-            if parameter.size != 1 and item.data == "name":
+            if parameter.sizes != (1,) and item.data == "name":
                 value, _ = self.named(str(item.children[0]))
             else:
                 value = self.value(item, parameter.kind)

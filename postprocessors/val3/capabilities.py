@@ -82,9 +82,7 @@ CAPABILITIES = Capabilities(
     ),
     texts=Texts(rules=frozenset((TextRule.CASE, TextRule.PARTS, TextRule.PRINTABLE))),
     data=Data(aggregates=frozenset((Aggregate.NAMED,)), composites=frozenset((Composite.ARRAYS,)), rules=frozenset()),
-    routines=Routines(
-        functions=False, passing=frozenset((Passing.REFERENCES,)), local_routines=False
-    ),
+    routines=Routines(functions=False, passing=frozenset((Passing.REFERENCES,)), local_routines=False),
     errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE, Fault.INDEX_FRACTION))),
     control=Control(
         counting=frozenset((Counting.REAL,)),

@@ -7,6 +7,7 @@ data is made for them: one for each value, named after it.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import product
 
 from rpl.writing.text import number_text
 
@@ -15,26 +16,27 @@ from . import tables
 
 @dataclass(slots=True)
 class Datum:
-    """One datum: its type, the attributes of each element as text, and the frame or tool that it hangs on (`fatherId`; an element
-    of a list with its number)."""
+    """One datum: its type, the attributes of each element as text (the last dimension first), and the frame or tool
+    that it hangs on (`fatherId`; an element of a list with its number)."""
 
     name: str
     type: str
     values: list[str] = field(default_factory=list)
-    size: int = 1
+    sizes: tuple[int, ...] = (1,)
     father: str = ""
-    dimensions: tuple[int, ...] = ()
 
     @property
     def count(self) -> str:
-        return ",".join(map(str, self.dimensions)) or str(max(self.size, len(self.values), 1))
+        return ",".join(map(str, self.sizes))
 
     @property
-    def rows(self) -> list[str]:
-        """The attributes of each element with its father."""
-        father = f'fatherId="{self.father if self.father.endswith("]") else f"{self.father}[0]"}"' if self.father else ""
+    def rows(self) -> list[tuple[str, str]]:
+        """The key of each element and its attributes with its father."""
+        frame = self.father if self.father.endswith("]") else f"{self.father}[0]"
+        hung = f' fatherId="{frame}"' if self.father else ""
         values = self.values or ([""] if self.father else [])
-        return [" ".join(part for part in (value, father) if part) for value in values]
+        keys = (",".join(map(str, key)) for key in product(*map(range, self.sizes)))
+        return [(key, f"{value}{hung}".strip()) for key, value in zip(keys, values, strict=False)]
 
 
 class Store:

@@ -95,8 +95,8 @@ class Expressions:
             case ir.Name(id=name):
                 self.known(name)
                 return name
-            case ir.Index(base=base, indices=(index,)):
-                return f"{self.storage(base)}[{self.text(index)}]"
+            case ir.Index(base=base, indices=indices):
+                return f"{self.storage(base)}[{self.listed(indices)}]"
         raise CannotSayError("a value that stands in no variable")
 
     def signal(self, signal: ir.Signal) -> str:
@@ -225,6 +225,8 @@ class Expressions:
             case "offset", (pose, x, y, z):
                 return f"{{{self.listed((x, y, z))},0,0,0}}*{self.printer.text(pose, tables.SIGN)}"
             case "distance", (ir.Field(base=one, name="trans"), ir.Field(base=other, name="trans")):
+                return f"distance({self.text(one)},{self.text(other)})"
+            case "distance", (one, other) if all(isinstance(self.type(each), ir.PoseType) for each in values):
                 return f"distance({self.text(one)},{self.text(other)})"
         raise CannotSayError(f"there is no function {name.replace('_', ' ')}")
 

@@ -74,7 +74,7 @@ class Motion:
             ("actions on its path", move.triggers),
             ("a search", move.search),
             ("a motion group", move.group != 1),
-            (f"{move.motion_class} motion", move.motion_class != "classic"),
+            (f"{move.motion_class} motion", move.motion_class not in ("classic", "process")),
         ):
             if found:
                 raise CannotSayError(f"a move with {what}")

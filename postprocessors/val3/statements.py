@@ -23,6 +23,11 @@ NOT_SAID = code(
     "VAL3 cannot say this: {reason}",
     "the original stands there as a comment, and the task stops for good",
 )
+PROCESS = code(
+    "val3-process-move",
+    Severity.WARNING,
+    "a move that keeps the tool's speed constant is written as a path move, which may slow down at its corners",
+)
 _PRIORITY = 10
 
 
@@ -117,6 +122,8 @@ class Statements:
                 return self.counting(statement)
             case ir.Move():
                 made = Motion(self.expressions).move(statement)
+                if statement.motion_class == "process":
+                    self.diagnostics.report(PROCESS, origin=statement.origin)
                 return say(
                     "move",
                     before=list(made.before),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, statements, walk
@@ -28,6 +30,7 @@ UNLINKED = code(
     "link each to its terminal in the controller's list of inputs and outputs before the program runs",
 )
 LOST = code("val3-lost-declaration", Severity.LOSS, "VAL3 cannot declare {name}: {reason}", "what uses it will not run")
+_MOST_DIMENSIONS = 3
 _ENTRY, _END = "start", "stop"
 _ATTRIBUTE_SIGNS = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": " "})
 
@@ -109,7 +112,7 @@ class _Application:
 
     def datum(self, variable: ir.Variable, expressions: Expressions) -> Datum:
         scope = expressions.scope
-        type, size = _element(scope.resolve(variable.type), scope)
+        type, sizes = _element(scope.resolve(variable.type), scope)
         word = self.roles.get(variable.name) or tables.TYPES.get(type.__class__.__name__)
         if word is None:
             raise CannotSayError(f"there is no type {type.__class__.__name__}")
@@ -118,9 +121,10 @@ class _Application:
             father = "world" if word == "frame" else "flange"
         elif word == "pointRx":
             father = self.fathers.get(variable.name, "world")
-        values = _elements(variable.initial, size)
+        is_list = isinstance(scope.resolve(variable.type), ir.ArrayType)
+        values = _elements(variable.initial, sizes) if is_list else [variable.initial]
         rows = [self.row(type, value, scope) for value in values]
-        return Datum(variable.name, word, rows if any(rows) else [], size, father)
+        return Datum(variable.name, word, rows if any(rows) else [], sizes, father)
 
     def row(self, type: ir.Type, value: ir.Expression | None, scope: Scope) -> str:
         """The attributes of one element."""
@@ -183,7 +187,7 @@ class _Application:
         statements = Statements(expressions, self.diagnostics, self.ledger, self.say)
         self.ledger.written(routine)
         lines = statements.remarks(routine.origin)
-        locals_: list[tuple[str, str, int]] = []
+        locals_: list[tuple[str, str, str]] = []
         lost: set[str] = set()
         for declaration in routine.declarations:
             try:
@@ -229,16 +233,16 @@ class _Application:
                 self.diagnostics.report(LOST, one.origin, name="a first value", reason=str(error))
         return lines
 
-    def parameter(self, parameter: ir.Parameter, scope: Scope) -> tuple[str, str, str, bool]:
-        type, _ = _element(scope.resolve(parameter.type), scope)
+    def parameter(self, parameter: ir.Parameter, scope: Scope) -> tuple[str, str, str, int, bool]:
+        type, sizes = _element(scope.resolve(parameter.type), scope)
         if isinstance(type, ir.SignalType):
-            return parameter.name, "dio" if type.kind.startswith("digital") else "aio", "element", False
+            return parameter.name, "dio" if type.kind.startswith("digital") else "aio", "element", 1, False
         word = self.roles.get(parameter.name) or tables.TYPES.get(type.__class__.__name__, "num")
         form = "array" if isinstance(scope.resolve(parameter.type), ir.ArrayType) else "element"
-        return parameter.name, word, form, parameter.mode == "reference"
+        return parameter.name, word, form, len(sizes), parameter.mode == "reference"
 
     def local(
-        self, declaration: ir.Declaration, statements: Statements, found: list[tuple[str, str, int]]
+        self, declaration: ir.Declaration, statements: Statements, found: list[tuple[str, str, str]]
     ) -> list[str]:
         """A routine's own datum, and what gives it its first value."""
         expressions = statements.expressions
@@ -246,19 +250,20 @@ class _Application:
             case ir.Unread(text=""):
                 return []
             case ir.Variable(name=name, initial=initial):
-                type, size = _element(expressions.scope.resolve(declaration.type), expressions.scope)
+                type, sizes = _element(expressions.scope.resolve(declaration.type), expressions.scope)
                 word = self.roles.get(name) or tables.TYPES.get(type.__class__.__name__)
                 if word is None:
                     raise CannotSayError(f"there is no type {type.__class__.__name__}")
-                found.append((name, word, size))
+                found.append((name, word, ",".join(map(str, sizes))))
                 if initial is None or _is_zero(initial):
                     return []
-                if size == 1:
+                if sizes == (1,):
                     return statements.assigned(ir.Name(name), initial)
                 lines = []
-                for at, value in enumerate(_elements(initial, size)):
+                for key, value in zip(product(*map(range, sizes)), _elements(initial, sizes), strict=True):
                     if value is not None:
-                        lines.extend(statements.assigned(ir.Index(ir.Name(name), (ir.IntLiteral(at),)), value))
+                        element = ir.Index(ir.Name(name), tuple(map(ir.IntLiteral, key)))
+                        lines.extend(statements.assigned(element, value))
                 return lines
         raise CannotSayError(f"there is no {declaration.__class__.__name__}")
 
@@ -267,22 +272,21 @@ def _is_zero(value: ir.Expression) -> bool:
     return value in (ir.IntLiteral(0), ir.RealLiteral(0.0), ir.BoolLiteral(False), ir.TextLiteral(""), NULL)
 
 
-def _element(type: ir.Type, scope: Scope) -> tuple[ir.Type, int]:
-    """The type of a datum's elements and how many there are."""
+def _element(type: ir.Type, scope: Scope) -> tuple[ir.Type, tuple[int, ...]]:
+    """The type of a datum's elements and how many there are in each dimension."""
     if not isinstance(type, ir.ArrayType):
-        return type, 1
-    bound = type.dimensions[0]
-    most = constant_number(bound, scope) if bound is not None else 0
-    if len(type.dimensions) > 1 or most is None:
-        raise CannotSayError("a list of more than one dimension")
-    return scope.resolve(type.element), int(most) + 1
+        return type, (1,)
+    most = [0 if bound is None else constant_number(bound, scope) for bound in type.dimensions]
+    if len(most) > _MOST_DIMENSIONS or None in most:
+        raise CannotSayError(f"a list of more than {_MOST_DIMENSIONS} dimensions, or whose size is worked out")
+    return scope.resolve(type.element), tuple(int(one or 0) + 1 for one in most)
 
 
-def _elements(initial: ir.Expression | None, size: int) -> list[ir.Expression | None]:
-    if size == 1:
-        return [initial]
+def _elements(initial: ir.Expression | None, sizes: tuple[int, ...]) -> list[ir.Expression | None]:
+    """The first values of all elements, the last dimension first; None: none is given."""
     given = [value for _, value in initial.entries] if isinstance(initial, ir.Aggregate) else []
-    return [given[at] if at < len(given) else None for at in range(size)]
+    rows = [given[at] if at < len(given) else None for at in range(sizes[0])]
+    return [one for row in rows for one in (_elements(row, sizes[1:]) if sizes[1:] else [row])]
 
 
 def _roles(program: ir.Program) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """Components of places that VAL3 has not: the angles a, b, c about z, y, x, and parts of places that stand nowhere.
 
-`rx, ry, rz` of a trsf turn about x, the new y, the new z; those of the turn back are -c, -b, -a. So an angle is read out
-of the inverse of the place, which is put into a variable in front: a component belongs to a variable.
+`rx, ry, rz` of a trsf turn about x, the new y, the new z; those of the turn back are -c, -b, -a. So an angle is read
+out of the inverse of the place, which is put into a variable in front: a component belongs to a variable.
 """
 
 from __future__ import annotations
