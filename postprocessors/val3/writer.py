@@ -237,7 +237,9 @@ class _Application:
         type, sizes = _element(scope.resolve(parameter.type), scope)
         if isinstance(type, ir.SignalType):
             return parameter.name, "dio" if type.kind.startswith("digital") else "aio", "element", 1, False
-        word = self.roles.get(parameter.name) or tables.TYPES.get(type.__class__.__name__, "num")
+        word = self.roles.get(parameter.name) or tables.TYPES.get(type.__class__.__name__)
+        if word is None:
+            raise CannotSayError(f"there is no type {type.__class__.__name__}")
         form = "array" if isinstance(scope.resolve(parameter.type), ir.ArrayType) else "element"
         return parameter.name, word, form, len(sizes), parameter.mode == "reference"
 

@@ -104,6 +104,8 @@ def test_a_way_seen_from_here_behind_a_movement_is_told_apart() -> None:
     assert prove_programs(right.program, wrong.program, ROBOT, entry="start").verdict == "different"
 
 
+# Lists of several dimensions since s7: their sizes and keys with commas between them (M: the form of the keys).
+GRID = (("nGrid", "num", "2,3", {"0,0": "1", "0,1": "2", "0,2": "3", "1,0": "4", "1,1": "5", "1,2": "6"}),)
 THERE_AND_BACK = {
     "a point of a frame": "movej(appro(pInPart,{0,0,-40,0,0,0}),tGrip,mFast)\nmovel(pInPart,tGrip,mStop)",
     "an arc": "movej(pA,tGrip,mStop)\nmovec(compose(pA,world,{40,100,0,0,0,0}),pB,tGrip,mStop)",
@@ -113,13 +115,16 @@ THERE_AND_BACK = {
         "movej(pB,tGrip,mFast)\nbreak\nendSwitch\nendFor\nwhile nX>0\nnX=nX-1\nendWhile\nwaitEndMove()\ndoOut=nX==0"
     ),
     "a tool and texts": 'movej(pA,tGrip,mStop)\nclose(tGrip)\nsX="n"+toString(".1",1.25)\nputln(sX)\nopen(tGrip)',
+    "a list of two dimensions": (
+        "for nX=0 to 2\nnGrid[1,nX]=nGrid[1,nX]+nX\nendFor\ndoOut=nGrid[1,2]==8 and nGrid[1,0]==4"
+    ),
     "a limited wait": "movej(pA,tGrip,mStop)\nwaitEndMove()\nif !watch(diIn==true,0.3)\ndoOut=true\nendIf",
 }
 
 
 @pytest.mark.parametrize("code", THERE_AND_BACK.values(), ids=THERE_AND_BACK.keys())
 def test_what_is_written_means_what_was_read(code: str) -> None:
-    program = application(code + "\nwaitEndMove()")
+    program = application(code + "\nwaitEndMove()", GRID)
     found = Diagnostics()
     done = translate_program(program, "val3", ROBOT, None, found)
     back = read_sources(
@@ -148,23 +153,25 @@ def test_data_of_one_name_in_two_modules_are_two_data() -> None:
 
 
 def test_a_routine_that_cannot_be_declared_stops_where_it_is_called() -> None:
-    text = """.PROGRAM main()
-        mat[1,1] = 5
-        SIGNAL 1
-        CALL fill(mat[,], 3)
-        SIGNAL 2
-.END
-.PROGRAM fill(m[,], n)
-        m[1,2] = n
-.END
+    text = """MODULE job
+  VAR intnum inDoor;
+  PROC main()
+    SetDO do1,1;
+    off inDoor;
+    SetDO do2,1;
+  ENDPROC
+  PROC off(VAR intnum which)
+    IDelete which;
+  ENDPROC
+ENDMODULE
 """
     diagnostics = Diagnostics()
-    read = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())
+    read = read_sources([source_from_text("job.mod", text)], "rapid", Diagnostics())
     files = translate_program(read, "val3", ROBOT, None, diagnostics).files
-    lost = [item for item in diagnostics.of(Severity.LOSS) if "fill" in item.message]
-    assert {item.origin.line for item in lost} >= {4, 7}
+    lost = [item for item in diagnostics.of(Severity.LOSS) if "off" in item.message]
+    assert {item.origin.line for item in lost} >= {5, 8}
     main = next(file.data.decode() for file in files if file.path == "main.pgx")
-    assert "call fill" not in main and main.count("wait(false)") >= 1
+    assert "call off" not in main and main.count("wait(false)") >= 1
 
 
 def test_a_question_whether_a_task_runs_follows_its_name() -> None:

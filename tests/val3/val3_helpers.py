@@ -47,7 +47,8 @@ USUAL = (
     ("bX", "bool", 'value="false"'),
     ("sX", "string", 'value=""'),
 )
-Rows = Sequence[tuple[str, str, str]]
+Row = tuple[str, str, str] | tuple[str, str, str, Mapping[str, str]]  # of a list: its size, and its numbers by key
+Rows = Sequence[Row]
 
 
 def program(code: str, name: str = "start", head: str = "") -> Source:
@@ -55,12 +56,16 @@ def program(code: str, name: str = "start", head: str = "") -> Source:
 
 
 def data(rows: Rows) -> Source:
-    text = "\n".join(
-        f'    <Data name="{name}" access="private" xsi:type="array" type="{kind}" size="1">'
-        f'<Value key="0" {value} /></Data>'
-        for name, kind, value in rows
-    )
-    return source_from_text("app.dtx", _DATA.format(rows=text))
+    return source_from_text("app.dtx", _DATA.format(rows="\n".join(map(_row, rows))))
+
+
+def _row(row: Row) -> str:
+    """One datum, or one list."""
+    name, kind, value = row[:3]
+    size, elements = (value, row[3]) if len(row) == 4 else ("1", {"0": value})
+    shown = {key: f'value="{one}"' if len(row) == 4 else one for key, one in elements.items()}
+    inner = "".join(f'<Value key="{key}" {one} />' for key, one in shown.items())
+    return f'    <Data name="{name}" access="private" xsi:type="array" type="{kind}" size="{size}">{inner}</Data>'
 
 
 def sources(code: str | Mapping[str, str], rows: Rows = ()) -> list[Source]:
