@@ -95,6 +95,8 @@ class Expressions:
             case ir.Name(id=name):
                 self.known(name)
                 return name
+            case ir.Index(base=ir.Index(base=base, indices=outer), indices=inner):
+                return self.storage(ir.Index(base, (*outer, *inner)))
             case ir.Index(base=base, indices=indices):
                 return f"{self.storage(base)}[{self.listed(indices)}]"
         raise CannotSayError("a value that stands in no variable")
