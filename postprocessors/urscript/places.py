@@ -225,7 +225,7 @@ class Places:
             if interface == "analog":
                 raise self.refuse("an analog signal by a computed number")
             return self.expressions.helper(f"rpl_digital_{way}", self.expressions.text(signal.index))
-        where, at = self.interface(interface, int(number))
+        where, at = self.interface(interface, int(number), signal.index)
         if where in tables.REGISTERS:
             return f"read_{way}put_{where}_register({at})"
         if (where, interface, way) == ("tool", "analog", "out"):
@@ -239,12 +239,16 @@ class Places:
             raise self.refuse(f"signals have numbers; {signal.name} has none")
         return f"{way}_{found[1]}({found[2]}"
 
-    def interface(self, interface: str, number: int) -> tuple[str, int]:
-        """The controller's interface that a signal belongs to, and the signal's number there (from 0)."""
+    def interface(self, interface: str, number: int, index: ir.Expression | None = None) -> tuple[str, str]:
+        """The controller's interface that a signal belongs to, and the signal's number there (from 0), by the name of
+        the data that holds it where the index has one."""
         table = tables.DIGITAL if interface == "digital" else tables.ANALOG
         for first, last, where in table:
             if first <= number <= last:
-                return where, number - first
+                match index:
+                    case ir.Binary(op="+", left=ir.Name() as data, right=ir.IntLiteral(value=more)) if more == first:
+                        return where, self.expressions.text(data)
+                return where, str(number - first)
         raise self.refuse(f"the controller has no {interface} signal {number}, only {table[0][0]} to {table[-1][1]}")
 
     def group(self, signal: ir.Signal) -> tuple[str, str]:
@@ -274,7 +278,7 @@ class Places:
             if interface == "analog":
                 raise self.refuse("an analog signal by a computed number")
             return self.expressions.helper("rpl_set_digital_out", self.expressions.text(signal.index), text)
-        where, at = self.interface(interface, int(number))
+        where, at = self.interface(interface, int(number), signal.index)
         if where == "tool" and interface == "analog":
             raise self.refuse("the tool has no analog output")
         if where in tables.REGISTERS:

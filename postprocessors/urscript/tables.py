@@ -126,6 +126,7 @@ def _ranges(kind: str) -> tuple[tuple[int, int, str], ...]:
 
 
 DIGITAL, ANALOG = _ranges("digital"), _ranges("analog")
+COUNTED_FROM_0 = tuple((first, last, -first) for first, last, _ in DIGITAL)
 REGISTERS = ("boolean", "float")  # general purpose registers, read and written by functions of another form
 STEP_S = float(_NUMBERS["step_s"])  # one cycle of the controller, which sync() waits for
 FLAGS = 32  # set_flag(0) .. set_flag(31): internal digital signals, counted from 1 here as the others

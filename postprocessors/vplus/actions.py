@@ -418,10 +418,11 @@ class Actions:
             self.printer.line(f"SIGNAL {now}", statement.origin)
         else:
             self.printer.comments_only(statement.origin)
-        if _is_number(then) and _is_number(time):
+        fixed = signal.index is not None and self.expressions.known(signal.index) is not None
+        if fixed and _is_number(time):
             self.printer.line(f"EXECUTE {task} {output.later(then, time)}()")
             return
-        if not _is_number(then):
+        if not fixed:
             self.printer.diagnostics.report(ONE_PULSE, statement.origin, task=task)
         self.printer.line(f"EXECUTE {task} rpl.later({_by_value(then)}, {_by_value(time)})")
         self.expressions.notes.helpers.add("rpl.later")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.typewords import word_type
 from rpl.writing.precedence import ATOM, Printed
 from rpl.writing.statements import CannotSayError
@@ -112,7 +113,8 @@ class Places:
             raise self.refuse(f"signals have numbers; {signal.name or 'this one'} has none")
         offset = tables.SIGNALS[kind]
         known = self.expressions.known(signal.index)
-        if known is not None and not isinstance(signal.index, ir.Name):
+        named = any(isinstance(one, ir.Name) for one in walk(signal.index))
+        if known is not None and not named:
             first, last = tables.ROBOT_SIGNALS
             robot = kind == "digital_out" and first <= known <= last
             if not (1 <= known <= tables.MOST_SIGNALS or robot):

@@ -40,6 +40,10 @@ class Io:
     """Empty when signals have numbers (KRL); otherwise signals have names (RAPID), and a number 5 of a kind is called
     prefix + 5."""
 
+    number_data: Mapping[str, tuple[tuple[int, int, int], ...]] = field(default_factory=dict)
+    """Programs name signals that have numbers by data that holds these, at their head: of a kind, the first and the
+    last number and what the data has more than the number (V+: 1 to 512 are inputs 1001 to 1512)."""
+
     groups: frozenset[GroupRule] = frozenset((GroupRule.FREE, GroupRule.COMPUTED))
 
     group_sizes: tuple[int, ...] = ()

@@ -10,6 +10,7 @@ from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bi
 from rpl.passes.legalise.io.declaredremarks import declared_remarks
 from rpl.passes.legalise.io.flagdata import flags_as_data
 from rpl.passes.legalise.io.keptsettings import kept_settings
+from rpl.passes.legalise.io.namednumbers import named_numbers
 from rpl.passes.legalise.io.overrides import full_override
 from rpl.passes.legalise.io.readoverrides import read_overrides
 from rpl.passes.legalise.io.signals import name_signals, number_signals
@@ -31,6 +32,7 @@ STAGE = Stage(
         analog_units,
         name_signals,
         number_signals,
+        named_numbers,
         groups_to_bits,
     ),
     Clause(

@@ -27,15 +27,16 @@ __all__ = ["signal_words"]
 _NUMBERS = (ir.IntType, ir.RealType)
 
 
-def _signals_have_numbers(context: Context) -> bool:
+def _stay_numbers(context: Context) -> bool:
     io = context.capabilities.io
-    return not io.signal_prefixes and GroupRule.DECLARED not in io.groups
+    return not context.foreign or not (io.signal_prefixes or io.number_data or GroupRule.DECLARED in io.groups)
 
 
-@legalising(unless=_signals_have_numbers, sees=("Signal",))
+@legalising(unless=_stay_numbers, sees=("Signal",))
 def signal_words(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose signals have names. One value has such a variable, wherever it is set; a program that asks
-    for a signal before it is said is one that its own controller stops."""
+    """Only for targets whose signals have names, or data in their place, and not in the program's own language. One
+    value has such a variable, wherever it is set; a program that asks for a signal before it is said is one that its
+    own controller stops."""
     worker = _Words(program)
     return worker.program() if worker.values else program
 
