@@ -106,7 +106,8 @@ class _Words:
         if not any(name in self.values for name in _names(index)):
             return None
         value = constant(index, scope, known=self.values)
-        return int(value) if isinstance(value, int | float) and value == int(value) else None
+        whole = isinstance(value, int | float) and value == int(value)
+        return int(value) if isinstance(value, int | float) and whole and value >= 1 else None
 
     def name(self, name: str, kind: str, number: int) -> None:
         signal = ir.Signal(kind, ir.IntLiteral(number))
