@@ -13,6 +13,7 @@ from rpl.ir.standing import NOTHING, Standing
 from rpl.passes.analog import AnalogRanges
 from rpl.passes.capabilities import Capabilities
 from rpl.passes.scope import Fold, ProgramScope, rules_of
+from rpl.source import Origin
 
 
 class Arm(Protocol):
@@ -64,6 +65,15 @@ class Arm(Protocol):
     def within_limits(self, joints: Any) -> Any: ...
 
 
+@dataclass(frozen=True, slots=True)
+class Unreached:
+    """A place or joints to which an arm does not come: what it is in words, why not, and where it stands."""
+
+    what: str
+    reason: str
+    origin: Origin
+
+
 @dataclass(slots=True)
 class Context:
     """`source` and `target` are dialect names. `robot` is the arm the source was written for, `to_robot` the arm that
@@ -73,7 +83,9 @@ class Context:
     had a name and are written by their numbers, and signals of a number that are written by their names.
     `signal_names`: the names of numbered signals, (kind, number) -> name. `analog`: what
     is said of analogue signals, by language. `stretches`: of runs, for each of which one move stands in the program;
-    `before`: the reports that were there in front of the passes. `there`: what stands on the robot that will run it."""
+    `before`: the reports that were there in front of the passes. `unreached`: places to which the arm that runs the
+    result does not come, by where they stand in the source; `flanges`: where it has to come, as far as that is known,
+    4x4 in mm, in the arm's base. `there`: what stands on the robot that will run it."""
 
     source: str
     target: str
@@ -90,12 +102,18 @@ class Context:
     analog: Mapping[str, AnalogRanges] = field(default_factory=dict)
     stretches: tuple[Stretch, ...] = ()
     before: int = 0
+    unreached: dict[tuple[int, int], Unreached] = field(default_factory=dict)
+    flanges: list[Any] = field(default_factory=list)
     there: Standing = NOTHING
 
     @property
     def foreign(self) -> bool:
         """Is the target another language than the source?"""
         return self.source != self.target
+
+    def not_reached(self, origin: Origin, what: str, reason: str) -> None:
+        """The arm that runs the result does not come to what stands there."""
+        self.unreached[id(origin.source), origin.start] = Unreached(what, reason, origin)
 
     def fresh(self, stem: str) -> str:
         """A name that nothing in the program has: `stem`, else `stem2`, `stem3`, ... Deterministic."""

@@ -11,6 +11,7 @@ from rpl import ir, registry
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.emulator.rotations import matrix_to_zyx
 from rpl.passes.legalise.places.postures.configurations import configurations
+from rpl.passes.legalise.places.postures.unreachable import unreachable_moves
 
 from .helpers import context, lines, read, show, variable
 
@@ -177,8 +178,10 @@ def test_joints_travel_to_another_arm_through_their_pose(kuka: RobotModel, abb: 
     assert np.allclose(abb.forward(joints), kuka.forward([10, -80, 100, 5, 40, 20]), atol=1e-6)
     expected = registry.dialect("rapid").notation().encode(abb, np.array(joints))  # type: ignore[misc]
     assert {name: flags(done, "P1")[name] for name in expected} == expected
+    assert not surroundings.diagnostics.items
+    unreachable_moves(done, surroundings)
     reported = [(item.code.name, item.origin.line) for item in surroundings.diagnostics]
-    assert reported == [("unreachable-on-target-arm", 3)]
+    assert reported == [("unreachable-on-target-arm", 4)]  # the move, not its datum
 
 
 def test_only_the_move_whose_flags_are_unknown_goes_unchecked(kuka: RobotModel) -> None:

@@ -77,14 +77,14 @@ STRAIGHT_TURN = [0.0, 20.0, -20.0, 0.0, -50.0, 180.0]  # J6 at exactly half a tu
 
 
 @pytest.mark.parametrize("target", ["rapid", "krl"])
-def test_flags_whose_turn_no_solution_has_are_an_error(target: str) -> None:
+def test_flags_whose_turn_no_solution_has_are_a_guarded_stop(target: str) -> None:
     """Turn 2 of J6 begins at 540 degrees; the arm's axis ends at 360."""
     assert told_of("N U T, 0, 0, 0", [0.0, 20.0, -20.0, 0.0, -50.0, 30.0], target) == []
     assert told_of("N U T, 0, 0, 2", [0.0, 20.0, -20.0, 0.0, -50.0, 30.0], target) == [
-        ("unreachable-on-target-arm", "ERROR")
+        ("unreachable-on-target-arm", "LOSS")
     ]
 
 
 def test_half_a_turn_is_turn_one() -> None:
     assert told_of("N U T, 0, 0, 1", STRAIGHT_TURN, "rapid") == []
-    assert told_of("N U T, 0, 0, 0", STRAIGHT_TURN, "rapid") == [("unreachable-on-target-arm", "ERROR")]
+    assert told_of("N U T, 0, 0, 0", STRAIGHT_TURN, "rapid") == [("unreachable-on-target-arm", "LOSS")]

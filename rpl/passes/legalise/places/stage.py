@@ -28,11 +28,12 @@ from rpl.passes.legalise.places.postures.nearjoints import near_joints
 from rpl.passes.legalise.places.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.places.postures.seenjoints import seen_joints
 from rpl.passes.legalise.places.postures.turns import told_turns
+from rpl.passes.legalise.places.postures.unreachable import unreachable_moves
 from rpl.passes.legalise.places.threepoints import three_point_arcs
 from rpl.passes.legalise.stages import Clause, Stage
 
 # What another arm needs, also where the language stays the same.
-OTHER_ARM = (places_on_other_arm, configurations)
+OTHER_ARM = (places_on_other_arm, configurations, unreachable_moves)
 
 STAGE = Stage(
     "places",

@@ -43,7 +43,6 @@ WITHOUT_TURNS = code(
     "{reason}, so that the turns of the axes are not known; the posture of the arm is written",
     "the controller takes the shortest way to it",
 )
-UNREACHABLE = code("unreachable-on-target-arm", Severity.ERROR, "the arm {arm} does not reach this {what}: {reason}")
 POSTURE_CHANGED = code(
     "posture-changed",
     Severity.WARNING,
@@ -401,8 +400,7 @@ class _Configurations(Rewriter):
     def refused(self, found: _Refused, expression: ir.Aggregate, had: bool) -> None:
         uses = self.uses.found.get(id(expression), set())
         if found.fatal and self.to_arm is not None:
-            what = {"arm": self.to_arm.name, "what": "target", "reason": found.reason}
-            self.context.diagnostics.report(UNREACHABLE, self.at(expression), **what)
+            self.context.not_reached(self.at(expression), "target", found.reason)
         elif had and (any(use.joint for use in uses) or (not uses and _is_taught(expression))):
             self.context.diagnostics.report(NOT_CONVERTED, self.at(expression), reason=found.reason)
 
@@ -527,8 +525,7 @@ class _Configurations(Rewriter):
         if self.changed is not None and found is not None:
             self.tell_changed("joint position", expression)
         if found is None:
-            what = {"arm": self.to_arm.name, "what": "joint position", "reason": self.why_not(flange)}
-            self.context.diagnostics.report(UNREACHABLE, self.at(expression), **what)
+            self.context.not_reached(self.at(expression), "joint position", self.why_not(flange))
             return super().expression(expression)
         new = {name: real(float(value)) for name, value in zip(_AXES, found, strict=False)}
         return _with_joints(expression, new, self.named(expression, ir.JointsType()))

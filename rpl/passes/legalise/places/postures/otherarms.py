@@ -15,7 +15,6 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context
 from rpl.passes.legalise.facts.whereabouts import Whereabouts
-from rpl.passes.legalise.places.postures.configurations import UNREACHABLE
 from rpl.passes.legalise.places.postures.freepostures import FREE
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.stages import legalising
@@ -34,11 +33,11 @@ NOT_LOOKED_AT = code(
 
 @legalising()
 def places_on_other_arm(program: ir.Program, context: Context) -> ir.Program:
-    """Reports only."""
+    """Reports only, and what it has found out for those who stop at places that are not reached."""
     arm, other = context.robot, context.to_robot
     if arm is None or other is None or other.name == arm.name:
         return program
-    stands = Whereabouts(_neutral(program, context), context)
+    stands = Whereabouts(_neutral(program, context), replace(context, to_robot=None))
     places = _Places(context, other)
     for module, routine in stands.scopes.routines():
         scope = stands.scopes.routine(module, routine)
@@ -64,6 +63,8 @@ class _Places:
         self.found: dict[Pose, str] = {}  # why not; empty: it is reached
 
     def move(self, move: ir.Move, goal: Value | None, flange: Pose | None, scope: Scope) -> None:
+        if flange is not None:
+            self.context.flanges.append(flange.matrix)
         type = type_of(move.target, scope)
         written = isinstance(goal, Target) and any(value is not None for _, value in goal.flags)
         if isinstance(type, ir.JointsType) or (written and isinstance(move.target, ir.Name | ir.Index | ir.Aggregate)):
@@ -73,7 +74,7 @@ class _Places:
         if reason is None:
             report(NOT_LOOKED_AT, move.origin, arm=self.arm.name)
         elif reason:
-            report(UNREACHABLE, move.origin, arm=self.arm.name, what="place", reason=reason)
+            self.context.not_reached(move.origin, "place", reason)
         free = move.kind == "joint" and not written and not _asks_for_a_posture(move)
         if free and not reason and self.context.foreign:
             report(FREE, move.origin)
