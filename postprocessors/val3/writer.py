@@ -6,7 +6,7 @@ from itertools import product
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import bodies, statements, walk
+from rpl.ir.walk import bodies, statements
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.scope import ProgramScope, Scope
@@ -18,8 +18,9 @@ from rpl.writing.text import number_text
 
 from . import tables
 from .data import Datum, Store
-from .expressions import NULL, Expressions, point_row, pose_row, root_of
-from .namespace import names_of, one_namespace, points_in_data
+from .expressions import NULL, Expressions, point_row, pose_row
+from .facts.names import names_of
+from .facts.roles import entry_of, fathers_of, roles_of
 from .statements import Statements, indented
 
 UNLINKED = code(
@@ -37,7 +38,7 @@ _ATTRIBUTE_SIGNS = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "
 
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All files of the application. Raises InternalError when a node was neither written nor reported."""
-    return _Application(points_in_data(one_namespace(program)), context).files()
+    return _Application(program, context).files()
 
 
 class _Application:
@@ -46,10 +47,10 @@ class _Application:
         self.say = macros_of(__package__, context.templates)
         self.ledger = EmissionLedger()
         self.scopes = ProgramScope(program)
-        self.roles = _roles(program)
-        self.fathers = _fathers(program, self.roles)
+        self.roles = roles_of(program)
+        self.fathers = fathers_of(program, self.roles)
         self.store = Store(names_of(program))
-        self.entry = _entry(program)
+        self.entry = entry_of(program)
         self.first: list[tuple[ir.Initialise, Expressions]] = []  # values that the data are given at the start
 
     def files(self) -> list[OutputFile]:
@@ -289,69 +290,3 @@ def _elements(initial: ir.Expression | None, sizes: tuple[int, ...]) -> list[ir.
     given = [value for _, value in initial.entries] if isinstance(initial, ir.Aggregate) else []
     rows = [given[at] if at < len(given) else None for at in range(sizes[0])]
     return [one for row in rows for one in (_elements(row, sizes[1:]) if sizes[1:] else [row])]
-
-
-def _roles(program: ir.Program) -> dict[str, str]:
-    """Variables of poses that are tools or frames of movements."""
-    found: dict[str, str] = {}
-    for node in walk(*program.modules):
-        pairs: list[tuple[ir.Expression | None, str]] = []
-        match node:
-            case ir.Move(tool=tool, frame=frame):
-                pairs = [(tool, "tool"), (frame, "frame")]
-            case ir.Builtin(function="current_target", arguments=(tool, frame)):
-                pairs = [(tool, "tool"), (frame, "frame")]
-            case ir.Builtin(function="joints_to_target", arguments=(_, tool, frame)):
-                pairs = [(tool, "tool"), (frame, "frame")]
-        for value, role in pairs:
-            if isinstance(value, ir.Name | ir.Index) and found.setdefault(root_of(value), role) != role:
-                found[root_of(value)] = "tool"
-    return found
-
-
-def _fathers(program: ir.Program, roles: dict[str, str]) -> dict[str, str]:
-    """Points of the application's data that all movements use in one frame; they hang on it."""
-    used: dict[str, set[str]] = {}
-    for node in walk(*program.modules):
-        match node:
-            case ir.Move(target=target, via=via, frame=frame):
-                father = "world" if frame is None or frame == NULL else _named_frame(frame, roles)
-                for point in (target, via):
-                    if point is not None:
-                        used.setdefault(_point(point), set()).add(father)
-            case ir.CallRoutine(arguments=arguments) | ir.TaskControl(arguments=arguments):
-                for argument in arguments:
-                    if argument.value is not None:
-                        used.setdefault(_point(argument.value), set()).add("world")
-    data = {d.name for m in program.modules for d in m.declarations if isinstance(d, ir.Variable)}
-    single = {name: next(iter(frames)) for name, frames in used.items() if len(frames) == 1 and name in data}
-    return {name: father for name, father in single.items() if father not in ("", "world")}
-
-
-def _named_frame(frame: ir.Expression, roles: dict[str, str]) -> str:
-    """The frame as data name it; empty for one without a name of its own."""
-    match frame:
-        case ir.Name(id=name) if roles.get(name) == "frame":
-            return name
-        case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=at),)) if roles.get(name) == "frame":
-            return f"{name}[{at}]"
-    return ""
-
-
-def _point(value: ir.Expression) -> str:
-    match value:
-        case ir.Builtin(function="offset" | "tool_offset" | "displaced" | "displaced_in_tool", arguments=(first, *_)):
-            return _point(first)
-    return root_of(value)
-
-
-def _entry(program: ir.Program) -> str:
-    """The routine that the application begins with: the one that is named, else the first that nobody calls."""
-    if program.entry:
-        return program.entry
-    routines = [routine.name for module in program.modules for routine in module.routines]
-    called = {node.name for node in walk(*program.modules) if isinstance(node, ir.CallRoutine)}
-    started = {node.task for node in walk(*program.modules) if isinstance(node, ir.TaskControl)}
-    started |= {task.entry for task in program.tasks if task.kind == "background"}
-    free = [name for name in routines if name not in called | started]
-    return next((name for name in free if name.lower() == "main"), free[0] if free else "")

@@ -17,8 +17,8 @@ from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 
 from . import settings, spelling, tables
-from .corners import Corners, size_of
 from .expressions import Expressions
+from .facts.corners import Corners, size_of
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel

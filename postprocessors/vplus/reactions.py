@@ -13,6 +13,7 @@ from rpl.writing.statements import CannotSayError
 
 from . import tables
 from .expressions import Expressions
+from .facts.interrupts import Interrupts
 
 # M: the software signals that REACT takes on all versions come first.
 _FLAGS = (*range(8, 0, -1), *range(9, 513))
@@ -48,15 +49,12 @@ def _no_task(signal: ir.Signal) -> int:
 class Reactions:
     """All interrupts of a program, by identity. `task_of` gives the task of a program that comes along."""
 
-    def __init__(self, program: ir.Program) -> None:
+    def __init__(self, interrupts: Interrupts) -> None:
         self.task_of: Callable[[ir.Signal], int] = _no_task
         self.inside = ""  # the program that is written, folded
-        self.declared: dict[str, list[ir.DeclareInterrupt]] = {}
+        self.declared = interrupts.declared
         self.watches: dict[str, Watch] = {}
-        self.flags = {number for node in walk(program) if (number := _flag(node)) is not None}
-        for node in walk(program):
-            if isinstance(node, ir.DeclareInterrupt):
-                self.declared.setdefault(_key(node), []).append(node)
+        self.flags = set(interrupts.flags)
 
     def lines(self, statement: ir.DeclareInterrupt | ir.ControlInterrupt, expressions: Expressions) -> list[str]:
         if isinstance(statement, ir.DeclareInterrupt):
@@ -137,20 +135,6 @@ class Reactions:
         if not on:
             condition = ir.Unary("not", condition)
         return self.watched(condition, expressions)
-
-
-def _flag(node: object) -> int | None:
-    """The number of a software signal that the program itself uses."""
-    match node:
-        case ir.Signal(kind="flag", index=ir.IntLiteral(value=number)):
-            return number
-        case ir.System(name="flag", indices=(ir.IntLiteral(value=number),)):
-            return number
-    return None
-
-
-def _key(declared: ir.DeclareInterrupt) -> str:
-    return repr(declared.identity if declared.identity is not None else declared.priority)
 
 
 def _lifted(priority: ir.Expression, least: int = 1) -> ir.Expression:

@@ -17,9 +17,9 @@ from rpl.writing.text import wrapped
 
 from . import settings, spelling, tables
 from .actions import Actions
-from .corners import deferred
 from .decoding import decoded
 from .expressions import Expressions, Notes
+from .facts.corners import deferred
 from .motion import Motion
 from .output import Output
 from .pathevents import PathEvents

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from dataclasses import dataclass
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.fold import constant_number
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -19,11 +17,14 @@ from rpl.writing.target import OutputFile, WriteContext
 from rpl.writing.templates import macros_of
 
 from . import spelling, tables
-from .corners import Corners
 from .data import declared, stored, values
+from .facts.corners import Corners
+from .facts.interrupts import Interrupts
+from .facts.names import names_of, starts
+from .facts.tasks import tasks_of
+from .facts.usualspeed import usual_speed
 from .helpers import HELPERS, with_needed
 from .motion import MotionFacts
-from .namespace import names_of, one_namespace, starts
 from .output import Output
 from .reactions import Reactions
 from .statements import Printer
@@ -55,22 +56,22 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
 
 class _File:
     def __init__(self, program: ir.Program, context: WriteContext) -> None:
-        self.program = one_namespace(program)
+        self.program = program
         self.scopes = ProgramScope(self.program)
         self.ledger, self.diagnostics = EmissionLedger(), context.diagnostics
         corners = Corners.of(self.program) if context.foreign else Corners(self.program)
         facts = MotionFacts(context.diagnostics, context.robot, context.foreign, corners)
         self.starting = starts(self.program)
         if context.foreign:
-            facts.usual = self.usual()
+            facts.usual = usual_speed(self.program)
         self.output = Output(
             self.ledger,
             context.diagnostics,
             facts,
-            Reactions(self.program),
+            Reactions(Interrupts.of(self.program)),
             names_of(self.program),
             macros_of(__package__, context.templates),
-            self.tasks(),
+            tasks_of(self.program),
         )
         self.output.reactions.task_of = self.output.helper_task
         self.background = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
@@ -111,29 +112,6 @@ class _File:
         text = "\r\n".join(line.rstrip() for line in text.splitlines()) + "\r\n"
         name = re.sub(r"[^\w.]", "_", first.name.lower()).strip(".") or "program"
         return OutputFile(f"{name}.v2", text.encode("ascii", "replace"))
-
-    # ---- facts of the whole program
-
-    def tasks(self) -> dict[str, int]:
-        """A number for each program that is executed beside the main one."""
-        names = [task.entry.lower() for task in self.program.tasks if task.kind == "background"]
-        names += [node.task.lower() for node in walk(self.program) if isinstance(node, ir.TaskControl)]
-        return {name: number for number, name in enumerate(dict.fromkeys(names), 1) if number <= tables.TASKS}
-
-    def usual(self) -> float | None:
-        """The speed of joint moves that the program sets once for all."""
-        counts: Counter[float] = Counter()
-        for module in self.program.modules:
-            for routine in module.routines:
-                scope = self.scopes.routine(module, routine)
-                for node in walk(routine.body):
-                    if isinstance(node, ir.Move) and node.kind == "joint" and node.speed is not None:
-                        percent = node.speed.joint
-                        bare = percent.value if isinstance(percent, ir.Quantity) else percent
-                        known = constant_number(bare, scope) if bare is not None else None
-                        if known is not None and known > 0:
-                            counts[known] += 1
-        return counts.most_common(1)[0][0] if counts else None
 
     # ---- data
 

@@ -1,4 +1,5 @@
-"""What only VAL3 needs of a program, each pass with its place among those of the core."""
+"""What only VAL3 needs of a program, each pass with its place among those of the core, and right in front of the
+writer."""
 
 from __future__ import annotations
 
@@ -6,6 +7,7 @@ from rpl.passes.legalise.stages import Placed
 
 from .components import components_in_variables
 from .exits import loops_left_by_flags
+from .onenamespace import one_namespace, points_in_data
 from .pulses import pulses_as_tasks
 from .timers import timers_by_the_clock
 from .waits import waits_put_in
@@ -17,3 +19,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(waits_put_in, "storage", behind="number_data"),
     Placed(pulses_as_tasks, "storage", behind="number_data"),
 )
+LAST = (one_namespace, points_in_data)

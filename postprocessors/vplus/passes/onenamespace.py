@@ -9,33 +9,16 @@ from dataclasses import replace
 from typing import TypeVar
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
-from rpl.passes.legalise.facts.entries import never_called
+from rpl.ir.walk import rewrite
+from rpl.writing.target import WriteContext
 
-from . import tables
+from .. import tables
+from ..facts.names import names_of
 
 Node = TypeVar("Node")
 
 
-def starts(program: ir.Program) -> set[str]:
-    """Programs that somebody may start with, folded."""
-    tasks = {task.entry.lower() for task in program.tasks if task.kind == "background"}
-    executed = {node.task.lower() for node in walk(program) if isinstance(node, ir.TaskControl)}
-    named = {program.entry.lower(), *(task.entry.lower() for task in program.tasks if task.kind == "motion")} - {""}
-    return (never_called(program) | named) - tasks - executed
-
-
-def names_of(program: ir.Program) -> set[str]:
-    """Every name that stands in the program, folded and without its sign."""
-    names: set[str] = set()
-    for node in walk(program):
-        name = node.id if isinstance(node, ir.Name) else getattr(node, "name", None)
-        if isinstance(name, str):
-            names.add(name.lower().lstrip("$#%"))
-    return names
-
-
-def one_namespace(program: ir.Program) -> ir.Program:
+def one_namespace(program: ir.Program, context: WriteContext) -> ir.Program:
     """The program with names that differ wherever they mean different things for all programs."""
     taken = names_of(program)
     seen: set[str] = set()

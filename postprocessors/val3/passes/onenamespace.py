@@ -11,14 +11,16 @@ from dataclasses import replace
 from typing import TypeGuard
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
+from rpl.writing.target import WriteContext
 
-from .tables import LONGEST_NAME, RESERVED
+from ..facts.names import names_of
+from ..tables import LONGEST_NAME, RESERVED
 
 _NUMBERS = (ir.IntLiteral, ir.RealLiteral)
 
 
-def one_namespace(program: ir.Program) -> ir.Program:
+def one_namespace(program: ir.Program, context: WriteContext) -> ir.Program:
     """The program with one datum for each name of its modules' data."""
     data = [_data(module) for module in program.modules]
     homes: dict[str, int] = {}
@@ -37,7 +39,7 @@ def one_namespace(program: ir.Program) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
-def points_in_data(program: ir.Program) -> ir.Program:
+def points_in_data(program: ir.Program, context: WriteContext) -> ir.Program:
     """The program with the taught points of its routines as data; of two of one name the later one has its routine's
     name behind it."""
     own = [one.name for m in program.modules for r in m.routines for one in r.declarations if _is_taught(one)]
@@ -74,19 +76,6 @@ def _is_taught(declaration: object) -> TypeGuard[ir.Variable]:
         case ir.Variable(storage="constant", type=ir.TargetType() | ir.JointsType(), initial=ir.Aggregate(entries)):
             return all(isinstance(one, _NUMBERS) for _, one in entries)
     return False
-
-
-def names_of(program: ir.Program, locals: bool = True) -> set[str]:
-    """Every name that the program declares or gives a signal. locals: those of routines' own data too."""
-    found: set[str] = set()
-    for module in program.modules:
-        found.update(str(getattr(declaration, "name", "")) for declaration in module.declarations)
-        for routine in module.routines:
-            found.add(routine.name)
-            found.update(parameter.name for parameter in routine.parameters)
-            found.update(str(getattr(one, "name", "")) for one in routine.declarations if locals)
-    found.update(node.name or "" for node in walk(*program.modules) if isinstance(node, ir.Signal))
-    return found
 
 
 def _data(module: ir.Module) -> dict[str, bool]:
