@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.fold import constant_number
@@ -15,38 +14,6 @@ from .places import is_matrix
 
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
 _DEEPEST = 16
-
-
-def gathered(program: ir.Program) -> ir.Program:
-    """The program with arrays whose elements all get a constant first, one by one, as lists with these values."""
-    modules = tuple(replace(one, declarations=_gathered(one.declarations)) for one in program.modules)
-    return replace(program, modules=modules)
-
-
-def _gathered(declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration, ...]:
-    given: dict[str, dict[int, ir.Initialise]] = {}
-    for one in declarations:
-        match one:
-            case ir.Initialise(
-                assign=ir.Assign(target=ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=at),)))
-            ):
-                given.setdefault(name, {})[at] = one
-    lists: dict[str, ir.Aggregate] = {}
-    for one in declarations:
-        if not isinstance(one, ir.Variable) or one.initial is not None or not isinstance(one.type, ir.ArrayType):
-            continue
-        found, bounds = given.get(one.name, {}), one.type.dimensions
-        if len(bounds) != 1 or not isinstance(bounds[0], ir.IntLiteral):
-            continue
-        places = range(one.type.base, bounds[0].value + 1)
-        if found and set(found) == set(places):
-            lists[one.name] = ir.Aggregate(tuple((None, found[at].assign.value) for at in places))
-    gone = {id(one) for name in lists for one in given[name].values()}
-    return tuple(
-        replace(one, initial=lists[one.name]) if isinstance(one, ir.Variable) and one.name in lists else one
-        for one in declarations
-        if id(one) not in gone
-    )
 
 
 def first_value(variable: ir.Variable, expressions: Expressions) -> str:

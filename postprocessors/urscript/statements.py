@@ -18,8 +18,8 @@ from rpl.writing.templates import Macros
 from . import spelling
 from .actions import Actions
 from .expressions import Expressions, Notes
+from .facts.standing import Standing
 from .motion import Motion
-from .standing import Standing
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel

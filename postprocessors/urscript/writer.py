@@ -11,11 +11,10 @@ from rpl.writing.statements import CannotSayError
 from rpl.writing.target import OutputFile, WriteContext
 from rpl.writing.templates import macros_of
 
-from .declarations import first_value, gathered, header
+from .declarations import first_value, header
+from .facts.standing import Standing
 from .helpers import HELPERS, with_needed
-from .levels import output_levels
 from .namespace import called_names, names_of, not_reached, one_namespace, programs
-from .standing import Standing
 from .statements import INDENT, Output, Printer
 
 LOST_DECLARATION = code(
@@ -51,8 +50,7 @@ class _Script:
         self, program: ir.Program, start: ir.Routine | None, others: list[ir.Routine], context: WriteContext
     ) -> None:
         self.ledger = EmissionLedger()
-        self.program, self.start = one_namespace(gathered(_without(program, others)), start)
-        self.program, self.start = self.cleaned()
+        self.program, self.start = one_namespace(_without(program, others), start)
         self.scopes = ProgramScope(self.program)
         self.diagnostics = context.diagnostics
         taken = names_of(self.program) | set(HELPERS)
@@ -64,15 +62,6 @@ class _Script:
         self.started = {
             node.task.lower() for node in walk(self.program) if isinstance(node, ir.TaskControl) and node.op == "start"
         }
-
-    def cleaned(self) -> tuple[ir.Program, ir.Routine | None]:
-        """The program with the levels of its outputs as the controller tells them, and its start there."""
-        done = output_levels(self.program)
-        for module, new in zip(self.program.modules, done.modules, strict=True):
-            for routine, rounded in zip(module.routines, new.routines, strict=True):
-                if routine is self.start:
-                    return done, rounded
-        return done, self.start
 
     def file(self) -> OutputFile:
         name = self.name()

@@ -1,9 +1,12 @@
-"""What only URScript needs of a program, each pass with its place among those of the core."""
+"""What only URScript needs of a program, each pass with its place among those of the core, and right in front of
+the writer."""
 
 from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
+from .lists import gathered_lists
+from .outputlevels import output_levels
 from .partedcorners import parted_corners
 from .readings import clean_readings
 from .taskstarts import stand_before_tasks
@@ -13,3 +16,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(stand_before_tasks, "records", behind="watching"),
     Placed(clean_readings, "storage", behind="number_data"),
 )
+LAST = (gathered_lists, output_levels)

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
+from rpl.writing.target import WriteContext
 
 _SAYS = "set_analog_outputdomain("
 
 
-def output_levels(program: ir.Program) -> ir.Program:
+def output_levels(program: ir.Program, context: WriteContext) -> ir.Program:
     """The program with levels of outputs as the controller's own values."""
     said = (node.text for node in walk(program) if isinstance(node, ir.Vendor) and node.dialect == "urscript")
     if not any(text.startswith(_SAYS) for text in said):

@@ -13,8 +13,7 @@ from collections.abc import Iterable
 from rpl import ir
 from rpl.ir.walk import expressions, walk
 from rpl.passes.legalise.facts.effects import blocks, children
-from rpl.passes.legalise.facts.runbeside import RunBeside
-from rpl.passes.legalise.rewriting.operands import stands_still
+from rpl.passes.legalise.facts.runbeside import RunBeside, stands_still
 
 _LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 _DEEPEST = 8  # calls in calls that are looked into
