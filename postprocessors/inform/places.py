@@ -13,7 +13,7 @@ import numpy as np
 
 from rpl import ir
 from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, quaternion_to_matrix, slerp, zyx_to_matrix
-from rpl.passes.legalise.rewriting.startdata import INITIALISE
+from rpl.passes.legalise.facts.entries import INITIALISE
 from rpl.passes.rewrite import rewrite_parts
 
 from . import tables

@@ -10,7 +10,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.externalaxes import leading, used_externals
 from rpl.passes.legalise.facts.pulsecounts import assumed
-from rpl.passes.legalise.rewriting.beside import closure
+from rpl.passes.legalise.facts.usage import doing
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
@@ -20,7 +20,8 @@ from rpl.writing.templates import macros_of
 from . import tables
 from .assignments import Assignments
 from .cell import Cell
-from .flags import with_flags_in_bytes
+from .facts.positions import counts_joints, filled, goes_round_corners, goes_to_joints
+from .facts.tasks import jobs_beside, started_first, sub_tasks
 from .job import Job, winding
 from .labels import Labels
 from .motion import Motion
@@ -57,13 +58,14 @@ LONG_NAME = code(
     "inform-long-name", Severity.ERROR, "{name}: a job's name has at most {most} characters", "rename the routine"
 )
 
+_MOVING = (ir.Move, ir.MoveExternal, ir.Spline, ir.Vendor, ir.Opaque)
+
 
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All jobs. Raises InternalError when the ledger finds a node that nobody accounted for."""
     same = unchanged(program)
     if same is not None and not context.templates:
         return same
-    program = with_flags_in_bytes(program, context.register_names)
     ledger = EmissionLedger()
     writer = _Writer(program, context, ledger)
     jobs = [job for module in program.modules for job in writer.module(module)]
@@ -80,10 +82,10 @@ class _Writer:
         self.registers = Registers.of(program, (*context.register_names, *context.there.numbers))
         self.cell = Cell(self.registers, there=context.there)
         self.choose_axes()
-        self.entries = _entries(program)
+        self.entries = started_first(program)
         self.constants = Constants.of(program, self.entries)
         self.constants.names = {f"{bank}{number}": name for (bank, number), name in context.register_names.items()}
-        self.tasks = _sub_tasks(program)
+        self.tasks = sub_tasks(program)
         self.jobs = {
             routine.name.lower(): routine.name.upper() for module in program.modules for routine in module.routines
         }
@@ -91,16 +93,11 @@ class _Writer:
         self.start: list[ir.Assign] = []  # values of data before the program
         self.tools: dict[int, int] = {}  # id of a routine -> the tool of its positions in variables
         self.choose_tools()
-        self.beside = _beside(program)
-        self.corners = any(
-            isinstance(node, ir.Move) and not isinstance(node.blend, ir.BlendStop | None)
-            for module in program.modules
-            for routine in module.routines
-            for node in walk(routine.body)
-        )
-        self.moving = closure(program, (ir.Move, ir.MoveExternal, ir.Spline, ir.Vendor, ir.Opaque))
+        self.beside = jobs_beside(program)
+        self.corners = goes_round_corners(program)
+        self.moving = doing(program, lambda node: isinstance(node, _MOVING))
         robot = context.robot
-        self.counting = _counts_joints(program) or (winding(robot) and _goes_to_joints(program, self.constants))
+        self.counting = counts_joints(program) or (winding(robot) and goes_to_joints(program, self.constants))
         if self.counting and robot is not None and robot.pulses_per_degree is None and robot.pulse_scale is not None:
             assumed(robot, self.diagnostics)
 
@@ -277,7 +274,7 @@ class _Writer:
         assignments = Assignments(self.registers, positions)
         positions.number = assignments.number
         done = []
-        for number in _filled(self.program):
+        for number in filled(self.program):
             begin = Position("joints" if number in self.constants.joints else "pose", WORLD)
             if begin.kind == "pose" or job.scale is not None:
                 done.append(f"SET P{number:03d} {positions.kept(begin)}")
@@ -297,94 +294,3 @@ def _place_of_tool(node: object) -> bool:
         case ir.System(name="actual_pose") | ir.Builtin(function="current_target"):
             return True
     return False
-
-
-def _sub_tasks(program: ir.Program) -> dict[str, str]:
-    """Routine, folded -> the sub task that it is started as, as far as there are any."""
-    names: dict[str, str] = {}
-    for node in walk(*program.modules):
-        if isinstance(node, ir.TaskControl) and node.op == "start" and len(names) < tables.MOST_SUBTASKS:
-            names.setdefault(node.task.lower(), f"SUB{len(names) + 1}")
-    return names
-
-
-def _beside(program: ir.Program) -> dict[str, str]:
-    """Routine, folded -> the jobs that run beside the program and come to it; empty for the program itself."""
-    calls: dict[str, set[str]] = {}
-    roots = {task.entry.lower() for task in program.tasks if task.kind == "background"}
-    for module in program.modules:
-        for routine in module.routines:
-            found = calls.setdefault(routine.name.lower(), set())
-            for node in walk(routine.body):
-                match node:
-                    case ir.CallRoutine(name=name):
-                        found.add(name.lower())
-                    case ir.TaskControl(op="start", task=name):
-                        roots.add(name.lower())
-    reached: dict[str, set[str]] = {}
-    for root in roots:
-        waiting = [root]
-        while waiting:
-            name = waiting.pop()
-            if root not in reached.setdefault(name, set()):
-                reached[name].add(root)
-                waiting.extend(calls.get(name, ()))
-    return {name: " ".join(sorted(found)) for name, found in reached.items()}
-
-
-def _counts_joints(program: ir.Program) -> bool:
-    """Does the program calculate with the joints of positions, or move them by a way?"""
-    for node in walk(program):
-        match node:
-            case ir.Field(name=name) if name.lower() in tables.JOINT_ELEMENTS:
-                return True
-            case ir.System(name="actual_joint") | ir.Move(kind="joint", relative=str()) | ir.Move(relative="joints"):
-                return True
-            case ir.Builtin(function="joints_to_target", arguments=(_, _, *_)):
-                return True  # seen with a tool of its own: a pose that stands for the joints has the tool in it
-    return False
-
-
-def _goes_to_joints(program: ir.Program, constants: Constants) -> bool:
-    """Has a move joints as its target?"""
-    for module in program.modules:
-        for routine in module.routines:
-            within = constants.routine(routine)
-            for node in walk(routine.body):
-                if isinstance(node, ir.Move) and within.is_joints(node.target):
-                    return True
-    return False
-
-
-def _filled(program: ir.Program) -> list[int]:
-    """Position variables that get their values component by component. They begin as a pose without a posture, which
-    keeps the arm's present one; SETE leaves the posture that the controller's memory happens to have."""
-    places: set[int] = set()
-    declared = {
-        numbered(ir.Name(one.name))
-        for module in program.modules
-        for one in module.declarations
-        if isinstance(one, ir.Variable)
-    }
-    for module in program.modules:
-        for routine in module.routines:
-            for node in walk(routine.body):
-                if not isinstance(node, ir.Assign) or not isinstance(node.target, ir.Field):
-                    continue
-                place = numbered(node.target.base)
-                if place is not None and place[0] == "P" and place not in declared:
-                    places.add(place[1])
-    return sorted(places)
-
-
-def _entries(program: ir.Program) -> set[str]:
-    """Jobs that may be started, folded: the named entry, the tasks', else those that nobody calls."""
-    if program.entry:
-        return {program.entry.lower()}
-    motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
-    if motion:
-        return motion
-    from rpl.passes.legalise.facts.entries import never_called, started_tasks
-
-    beside = {task.entry.lower() for task in program.tasks if task.kind == "background"}
-    return never_called(program) - started_tasks(program) - beside

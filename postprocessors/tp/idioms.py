@@ -76,8 +76,8 @@ class Idioms:
     def take(self, body: ir.Body) -> int:
         """How many statements were written together; 0: there is no idiom here."""
         finders: tuple[Callable[[ir.Body], int], ...] = (
-            *(self.frame_number, self.frame_value, self.alarm, self.limited_wait, self.search, self.standstill),
-            *(self.loose_triggers, self.condition, self.under_conditions),
+            *(self.frame_number, self.frame_value, self.alarm, self.limited_wait, self.search),
+            *(self.condition, self.under_conditions),
             *(self.counting, self.chosen_place, self.rare_options, self.end_of_monitor, self.watched),
         )
         lines = self.printer.lines
@@ -200,43 +200,6 @@ class Idioms:
                 if place is not None and place.startswith("PR[") and _is_joints_now(value):
                     return f"{place}=JPOS"
         return ""
-
-    # ---- motion
-
-    def standstill(self, body: ir.Body) -> int:
-        """A move and a wait for its end: the move stops."""
-        if not isinstance(body[0], ir.Move):
-            return 0
-        count = 1
-        while count < len(body) and isinstance(body[count], ir.Nothing):
-            count += 1
-        if count == len(body) or not isinstance(body[count], ir.WaitForMotion):
-            return 0
-        self.printer.move(replace(body[0], blend=ir.BlendStop()))
-        for statement in body[1 : count + 1]:
-            self.printer.comments_only(statement.origin)
-        self.printer.ledger.merged(body[0])
-        for statement in body[1 : count + 1]:
-            self.printer.ledger.merged(statement)
-        return count + 1
-
-    def loose_triggers(self, body: ir.Body) -> int:
-        """Actions on the path that stand before their move."""
-        count = 0
-        while count < len(body) and isinstance(body[count], ir.Trigger | ir.Nothing | ir.LookAhead):
-            count += 1
-        triggers = tuple(one for one in body[:count] if isinstance(one, ir.Trigger))
-        if not triggers or not isinstance(body[0], ir.Trigger) or count == len(body):
-            return 0
-        move = body[count]
-        if not isinstance(move, ir.Move):
-            return 0
-        for statement in body[:count]:
-            self.printer.comments_only(statement.origin)
-        self.printer.move(replace(move, triggers=(*move.triggers, *triggers)))
-        for statement in body[: count + 1]:
-            self.printer.ledger.merged(statement)
-        return count + 1
 
     # ---- loops over the register array
 

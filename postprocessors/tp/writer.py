@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
+from rpl.passes.legalise.facts.entries import INITIALISE
 from rpl.passes.legalise.facts.externalaxes import leading, used_externals
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE, Origin
@@ -22,16 +22,18 @@ from . import tables
 from .assignments import Assignments
 from .dumps import dump_files
 from .expressions import Expressions
+from .facts.programs import coordinates, entries_of, monitors_of, quiet_routines, steps_in
+from .facts.registers import free_numbers, highest_free_registers, kept_registers
+from .facts.wholes import moved_to_only
 from .flow import Labels
-from .frames import Frames, free_numbers, highest_free_registers, kept_registers
+from .frames import Frames
 from .layout import laid_out
 from .lines import Line
-from .own import MODAL, monitors_of, noted_names, quiet_routines, steps_in
+from .own import MODAL, noted_names
 from .positions import Points, point_number
 from .posture import assumed_postures, choose_postures, frames_only, moved_to
 from .statements import Printer
 from .texts import comment, remarks
-from .wholes import moved_to_only
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -106,7 +108,7 @@ class _Writer:
                 self.frames.declared(one, self.scopes.module(module))
         self.frames.beside(context.there)
         report_poses(self.frames.poses(), context.there, self.diagnostics)
-        self.entries = _entries(program)
+        self.entries = entries_of(program)
         self.monitors = monitors_of(program)
         self.quiet, self.steady = quiet_routines(program)
         self.taken: set[str] = set()
@@ -114,7 +116,7 @@ class _Writer:
         self.from_listings: set[str] = set()  # their points have postures of their own
         self.axes = self.extended = used_externals(program)
         around = context.robot.mechanisms if context.robot is not None else ()
-        if any(not one.carries_robot for one in around) or _coordinates(program):
+        if any(not one.carries_robot for one in around) or coordinates(program):
             self.extended = leading(context.robot.carrying_axes if context.robot is not None else (), self.axes)
 
     def module(self, module: ir.Module) -> list[Listing]:
@@ -228,8 +230,6 @@ class _Writer:
         """Constant tools and frames, and tasks that run beside, at the start of each program that may be started."""
         tasks = [task for task in self.program.tasks if task.kind == "background"]
         begin = [Line(f"  RUN {task.entry.upper()}") for task in tasks]
-        from rpl.passes.legalise.rewriting.startdata import INITIALISE
-
         values = next((one for one in listings if one.name == INITIALISE.upper() and not one.entry), None)
         if values is not None:
             values.lines[:0] = self.first_values(values)
@@ -367,18 +367,6 @@ def _labels_of_registers(program: ir.Program) -> dict[tuple[str, int], str]:
     return found
 
 
-def _entries(program: ir.Program) -> set[str]:
-    """Programs that may be started, folded: the named entry, the tasks', else those that nobody calls."""
-    if program.entry:
-        return {program.entry.lower()}
-    motion = {task.entry.lower() for task in program.tasks if task.kind == "motion"}
-    if motion:
-        return motion
-    from rpl.passes.legalise.facts.entries import started_first
-
-    return started_first(program)
-
-
 def _beside(listings: list[Listing]) -> set[str]:
     """Programs that run beside the one that has the arm, and those that these call."""
     starts = {line.first.removeprefix("  RUN ") for one in listings for line in one.lines if "  RUN " in line.first}
@@ -408,12 +396,6 @@ def _file(listing: Listing, frames: Frames, beside: bool, say: Macros) -> Output
         positions=list(listing.points.text()),
     )
     return OutputFile(f"{listing.name}.LS", ("\r\n".join(text.splitlines()) + "\r\n").encode("ascii"))
-
-
-def _coordinates(program: ir.Program) -> bool:
-    """Is any move led by the second motion group?"""
-    moves = (node for node in walk(*program.modules) if isinstance(node, ir.Move))
-    return any(place == ir.System("coordinated") for move in moves for place, _ in move.settings)
 
 
 def _mask(points: Points) -> str:

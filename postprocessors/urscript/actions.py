@@ -7,8 +7,8 @@ from typing import Protocol
 
 from rpl import ir
 from rpl.ir.walk import expressions as all_expressions
+from rpl.passes.conditions import opposite
 from rpl.passes.fold import constant
-from rpl.passes.legalise.rewriting.jumps import opposite
 from rpl.passes.typewords import component_names, word_type
 from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
@@ -17,7 +17,7 @@ from rpl.writing.templates import Macros
 from . import tables
 from .declarations import in_one_list
 from .expressions import Expressions
-from .standing import Standing
+from .facts.standing import Standing
 
 _MESSAGES = {"notify": "", "state": "", "write": "", "error": "error=True", "quit": "blocking=True"}
 _LONGEST_KEYS = 9

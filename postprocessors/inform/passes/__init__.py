@@ -1,13 +1,16 @@
-"""What only INFORM needs of a program, each pass with its place among those of the core."""
+"""What only INFORM needs of a program, each pass with its place among those of the core, and right in front of the
+writer."""
 
 from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
 from .dialogs import number_dialogs
+from .flagbytes import flags_in_bytes
 from .watches import counted_watches
 
 PASSES: tuple[Placed, ...] = (
     Placed(counted_watches, "io", behind="timers_to_clocks"),
     Placed(number_dialogs, "statements", behind="decide_logic"),
 )
+LAST = (flags_in_bytes,)

@@ -1,4 +1,5 @@
-"""What only TP needs of a program, each pass with its place among those of the core."""
+"""What only TP needs of a program, each pass with its place among those of the core, and right in front of the
+writer."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ from rpl.passes.legalise.stages import Placed
 from .arguments import arguments_in_registers
 from .components import read_components
 from .composition import compositions
+from .exactends import exact_ends
 from .framenumbers import frame_numbers
 from .longlogic import long_logic
 from .moveplaces import places_of_moves
@@ -23,3 +25,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(arguments_in_registers, "control", behind="fit_loops"),
     Placed(long_logic, "control", behind="fit_loops"),
 )
+LAST = (exact_ends,)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.conditions import negation
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import (
@@ -19,7 +20,6 @@ from rpl.passes.legalise.rewriting.editing import (
     exits,
     expansion,
     map_body,
-    negation,
     passes_on,
 )
 from rpl.passes.legalise.stages import legalising

@@ -9,11 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from rpl import ir
+from rpl.passes.conditions import opposite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.tidyjumps import tidied
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
-from rpl.passes.legalise.rewriting.jumps import LabelNames, entered, goes_on, inside, opposite
+from rpl.passes.legalise.rewriting.jumps import LabelNames, entered, goes_on, inside
 from rpl.passes.legalise.stages import legalising
 from rpl.source import Origin
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import Counting
+from rpl.passes.conditions import negation
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.counters import declared_loops, jumps_about, overwritten, used_outside_loops
@@ -25,7 +26,6 @@ from rpl.passes.legalise.rewriting.editing import (
     exits,
     expansion,
     map_body,
-    negation,
     passes_on,
 )
 from rpl.passes.legalise.rewriting.jumps import entered

@@ -13,13 +13,15 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Aggregate, Limit, MessageRule
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.spread import is_computed, reads, spread
 from rpl.passes.legalise.facts.effects import children, everything, is_constant
+from rpl.passes.legalise.facts.runbeside import stands_still
 from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, negation
-from rpl.passes.legalise.rewriting.operands import changing, is_number, is_operand, opposite, stands_still
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
+from rpl.passes.legalise.rewriting.operands import changing, is_number, is_operand, opposite
 from rpl.passes.legalise.rewriting.walk import POLL_S, POLLED
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.statements.polling import seconds_of

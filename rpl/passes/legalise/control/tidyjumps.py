@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.conditions import opposite
 from rpl.passes.legalise.facts.effects import Effects, blocks
-from rpl.passes.legalise.rewriting.jumps import inside, labels, leaves, opposite, targets, without_labels
+from rpl.passes.legalise.rewriting.jumps import inside, labels, leaves, targets, without_labels
 
 _ROUNDS = 200
 

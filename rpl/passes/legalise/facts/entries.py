@@ -10,6 +10,7 @@ from rpl.ir.walk import bodies
 from rpl.passes.legalise.facts.heldtexts import named_by_texts
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 
+INITIALISE = "rpl_initialise"  # what a routine is called that gives data their first values
 _WORD = re.compile(r"\w+(?:\.\w+)*")
 
 

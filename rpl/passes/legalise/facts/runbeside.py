@@ -11,6 +11,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.facts.advance import is_flag
 from rpl.passes.legalise.facts.usage import base_name
 
+_BY_TIME = frozenset(("clock_seconds", "time_text", "date_text", "random", "text_value"))
 FLAGS = "a flag"  # in the place of a variable's name: all flags of the controller count as one
 
 
@@ -75,3 +76,15 @@ def _with_callees(names: set[str], calls: dict[str, set[str]]) -> frozenset[str]
         open_ = {callee for name in open_ for callee in calls.get(name, ())} - done
         done |= open_
     return frozenset(done)
+
+
+def stands_still(value: ir.Expression, changes: frozenset[str] | None) -> bool:
+    """Does reading it (its parts are asked for themselves) give the same as long as the program waits here?"""
+    match value:
+        case ir.Signal() | ir.System() | ir.Call():
+            return False
+        case ir.Builtin(function=function):
+            return function not in _BY_TIME and not function.startswith("current_")
+        case ir.Name(id=name):
+            return changes is not None and name.lower() not in changes
+    return True

@@ -14,11 +14,12 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.facts.watches import Watch
 from rpl.passes.legalise.rewriting.beside import closure, tidy
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, expansion, map_body, negation
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import default_value
 from rpl.passes.legalise.settings.movesettings import plain

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.rewriting.beside import Beside, tidy
-from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body, negation
+from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.movers import Movers
 

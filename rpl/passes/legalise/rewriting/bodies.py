@@ -14,8 +14,9 @@ from dataclasses import replace
 from typing import TypeVar
 
 from rpl import ir
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.facts.effects import children, is_constant
-from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body, negation, passes_on
+from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body, passes_on
 from rpl.passes.rewrite import changed, rewrite_parts, same
 from rpl.passes.scope import Scope
 from rpl.passes.typing import counter_type

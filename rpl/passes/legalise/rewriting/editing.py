@@ -115,19 +115,6 @@ def map_body(body: ir.Body, change: Callable[[ir.Statement], ir.Body]) -> ir.Bod
     return body if same else tuple(done)
 
 
-def negation(condition: ir.Expression) -> ir.Expression:
-    """The opposite condition, in the shorter way of writing it."""
-    opposite = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
-    match condition:
-        case ir.Unary(op="not", operand=operand):
-            return operand
-        case ir.BoolLiteral(value=value):
-            return replace(condition, value=not value)
-        case ir.Binary(op=op) if op in opposite:
-            return replace(condition, op=opposite[op])
-    return ir.Unary("not", condition, origin=condition.origin)
-
-
 def passes_on(body: ir.Body) -> bool:
     """Does the body of a loop have a NextPass of that loop?"""
     return _own_jump(body, ir.NextPass)

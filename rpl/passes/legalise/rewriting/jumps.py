@@ -10,19 +10,10 @@ from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, statements_in
-from rpl.passes.legalise.rewriting.editing import exits, expansion, map_body, negation, passes_on
+from rpl.passes.legalise.rewriting.editing import exits, expansion, map_body, passes_on
 from rpl.passes.rewrite import rewrite_parts
 
 LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
-_DUAL = {"and": "or", "or": "and", "cand": "cor", "cor": "cand"}
-
-
-def opposite(condition: ir.Expression) -> ir.Expression:
-    """The opposite condition as a person writes it: comparisons turned round, `not (a and b)` as `not a or not b`."""
-    match condition:
-        case ir.Binary(op=op, left=left, right=right) if op in _DUAL:
-            return replace(condition, op=_DUAL[op], left=opposite(left), right=opposite(right))
-    return negation(condition)
 
 
 def goes_on(body: ir.Body) -> bool:

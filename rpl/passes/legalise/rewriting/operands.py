@@ -6,12 +6,11 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import bodies
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.facts.effects import is_constant
 from rpl.passes.legalise.facts.usage import each_statement, usage_of
-from rpl.passes.legalise.rewriting.editing import negation
 
 _LITERALS = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral)
-_BY_TIME = frozenset(("clock_seconds", "time_text", "date_text", "random", "text_value"))
 
 
 def is_operand(value: ir.Expression) -> bool:
@@ -80,15 +79,3 @@ def changing(program: ir.Program) -> frozenset[str] | None:
             for body in bodies(routine):
                 each_statement(body, look)
     return frozenset(usage_of(program).assigned) if found else frozenset()
-
-
-def stands_still(value: ir.Expression, changes: frozenset[str] | None) -> bool:
-    """Does reading it (its parts are asked for themselves) give the same as long as the program waits here?"""
-    match value:
-        case ir.Signal() | ir.System() | ir.Call():
-            return False
-        case ir.Builtin(function=function):
-            return function not in _BY_TIME and not function.startswith("current_")
-        case ir.Name(id=name):
-            return changes is not None and name.lower() not in changes
-    return True

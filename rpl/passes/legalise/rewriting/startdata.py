@@ -7,16 +7,13 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.entries import moving_entries, never_called, started_tasks
+from rpl.passes.legalise.facts.entries import INITIALISE, moving_entries, never_called, started_tasks
 from rpl.passes.legalise.facts.heldtexts import named_by_texts
 from rpl.passes.legalise.facts.usage import base_name, doing
 from rpl.source import NOWHERE
 
 # So many assignments may stand in the routine that starts; more go into a routine of their own.
 _INLINE = 8
-
-
-INITIALISE = "rpl_initialise"
 
 
 def assigned_at_start(

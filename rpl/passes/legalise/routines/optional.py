@@ -15,11 +15,12 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import spelled_among
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import NameRules, Parameters, Passing
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything, statements_in
 from rpl.passes.legalise.facts.entries import calls_of, never_called, reached
 from rpl.passes.legalise.facts.heldtexts import HeldTexts, as_written_before, text_beginning
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.support import default_value
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts

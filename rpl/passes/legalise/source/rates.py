@@ -16,8 +16,9 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, negation
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising

@@ -13,11 +13,12 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import unhandled_text
 from rpl.ir.walk import walk
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, blocks, is_constant, may_be_zero, statements_in
 from rpl.passes.legalise.facts.raising import Raising, raising_of
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
-from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body, negation
+from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body
 from rpl.passes.legalise.rewriting.support import default_value, with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.statements.knownerrors import settled

@@ -7,10 +7,11 @@ where functions become procedures.
 from __future__ import annotations
 
 from rpl import ir
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import everything, is_constant
 from rpl.passes.legalise.facts.raising import Raising, raising_of
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 

@@ -12,10 +12,11 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
+from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything, is_constant, root, statements_in
 from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers, of_held_timers
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body, negation
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope

@@ -17,9 +17,10 @@ from rpl.passes.fold import Unchanged, constant, lasting, literal
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.parameters import ARGUMENTS
+from rpl.passes.legalise.facts.entries import INITIALISE
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.rewriting.operands import is_operand
-from rpl.passes.legalise.rewriting.startdata import INITIALISE, assigned_at_start
+from rpl.passes.legalise.rewriting.startdata import assigned_at_start
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.banks import (

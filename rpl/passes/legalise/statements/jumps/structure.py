@@ -14,10 +14,11 @@ from functools import reduce
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.conditions import opposite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, passes_on
-from rpl.passes.legalise.rewriting.jumps import entered, goes_on, inside, labels, opposite, without_labels
+from rpl.passes.legalise.rewriting.jumps import entered, goes_on, inside, labels, without_labels
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.statements.jumps.flowgraph import Builder
 from rpl.passes.legalise.statements.jumps.regions import Regions

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
+from rpl.writing.target import WriteContext
 
-from .operands import Registers
+from ..operands import Registers
 
 
-def with_flags_in_bytes(program: ir.Program, named: Iterable[tuple[str, int]] = ()) -> ir.Program:
+def flags_in_bytes(program: ir.Program, context: WriteContext) -> ir.Program:
     """Each flag with a constant number is a byte of its own from the top of the bank; others stay and are refused."""
-    registers = Registers.of(program, named)
+    registers = Registers.of(program, context.register_names)
     bytes_of: dict[int, int] = {}
 
     def look(expression: ir.Expression) -> ir.Expression:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from rpl import ir
 from rpl.ir.walk import walk
 
-from . import tables
+from .. import tables
 
 _SAME_PLACE = frozenset(("joints_to_target", "target_to_joints"))
 
