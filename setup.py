@@ -8,6 +8,6 @@ ROOMS = {"rpl": "rpl", "rpl.dialects": "dialects", "rpl.postprocessors": "postpr
 packages = []
 for name, folder in ROOMS.items():
     packages += [name, *(f"{name}.{inner}" for inner in find_packages(str(Path(folder))))]
-DATA = ["*.lark", "*.toml", "*.j2", "*.css", "*.js", "*.rpl", "*.src", "*.mod", "*.dat", "py.typed"]
+DATA = ["*.lark", "*.toml", "*.j2", "*.css", "*.js", "*.rpl", "*.src", "*.mod", "*.dat", "*.script", "*.v2", "py.typed"]
 
 setup(packages=packages, package_dir=ROOMS, package_data={"": DATA})

@@ -100,7 +100,7 @@ def one_namespace(program: ir.Program, start: ir.Routine | None) -> tuple[ir.Pro
     that the writer brings along included, and the routine that it starts with."""
     taken = names_of(program)
     own = {name for module in program.modules for name in _declared(module)}
-    brought = {name: _free(name, taken) for name in sorted(own & HELPERS.keys())}
+    brought = {name: _free(name, taken) for name in sorted(own & HELPERS.texts.keys())}
     seen: set[str] = set()
     modules: list[ir.Module] = []
     first: ir.Routine | None = None

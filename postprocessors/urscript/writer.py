@@ -13,7 +13,7 @@ from rpl.writing.templates import macros_of
 
 from .declarations import first_value, header
 from .facts.standing import Standing
-from .helpers import HELPERS, with_needed
+from .helpers import HELPERS
 from .namespace import called_names, names_of, not_reached, one_namespace, programs
 from .statements import INDENT, Output, Printer
 
@@ -53,7 +53,7 @@ class _Script:
         self.program, self.start = one_namespace(_without(program, others), start)
         self.scopes = ProgramScope(self.program)
         self.diagnostics = context.diagnostics
-        taken = names_of(self.program) | set(HELPERS)
+        taken = names_of(self.program) | set(HELPERS.texts)
         self.say, standing = macros_of(__package__, context.templates), Standing(self.program)
         self.output = Output(self.ledger, context.diagnostics, context.robot, taken, standing, self.say)
         called = called_names(self.program)
@@ -78,7 +78,7 @@ class _Script:
         ]
         body = self.body()
         threads = [_indented(lines) for lines in self.output.threads]
-        helpers = [_indented(HELPERS[one]) for one in with_needed(frozenset(self.output.notes.helpers))]
+        helpers = [_indented(HELPERS.texts[one]) for one in HELPERS.needed(self.output.notes.helpers)]
         parts = [part for part in (data, *helpers, *routines, *threads, body) if part]
         text = self.say("script", before=remarks.lines, name=name, parts=parts) + "\n"
         self.ledger.check(self.program)

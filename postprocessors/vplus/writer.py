@@ -23,7 +23,7 @@ from .facts.interrupts import Interrupts
 from .facts.names import names_of, starts
 from .facts.tasks import tasks_of
 from .facts.usualspeed import usual_speed
-from .helpers import HELPERS, with_needed
+from .helpers import HELPERS
 from .motion import MotionFacts
 from .output import Output
 from .reactions import Reactions
@@ -90,8 +90,8 @@ class _File:
         programs.sort(key=lambda one: not one[1])
         indent = self.output.say("first")
         programs += [
-            (ProgramText(HELPERS[name][0], tuple(indent + step for step in HELPERS[name][1])), False)
-            for name in with_needed(self.output.helpers)
+            (ProgramText(head, tuple(indent + step for step in steps)), False)
+            for head, *steps, _ in (HELPERS.texts[name] for name in sorted(HELPERS.needed(self.output.helpers)))
         ]
         programs += [
             (ProgramText(f".PROGRAM {name}()", (f"{indent}WAIT.EVENT , {seconds}", f"{indent}SIGNAL {number}")), False)
