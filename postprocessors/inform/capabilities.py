@@ -24,7 +24,6 @@ from rpl.passes.capabilities import (
     PlaceRule,
     Places,
     PulseRule,
-    Rotation,
     Routines,
     SearchResult,
     Settings,
@@ -66,7 +65,6 @@ CAPABILITIES = Capabilities(
     conversions=frozenset(("real", "trunc", "round_half_away", "bit", "truth", "floor", "code", "char")),
     places=Places(
         notation="inform",
-        rotation=Rotation.ZYX,
         rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.TURNS, PlaceRule.UNTYPED)),
     ),
     motion=Motion(
@@ -93,7 +91,7 @@ CAPABILITIES = Capabilities(
         wait_timeout=True,
         clock_step_s=tables.WATCH_STEP_S,
         shortest_wait_s=0.01,
-        flags=False,
+        last_flag=0,
         group_sizes=(8, 4),
         widest_group=16,
         poll_s=tables.WATCH_STEP_S,

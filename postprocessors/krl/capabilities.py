@@ -19,6 +19,7 @@ from rpl.passes.capabilities import (
     InterruptRule,
     Interrupts,
     Io,
+    Limit,
     ModulePoints,
     Motion,
     NameRules,
@@ -26,7 +27,6 @@ from rpl.passes.capabilities import (
     PathRule,
     PlaceRule,
     Places,
-    Rotation,
     Routines,
     Settings,
     Storage,
@@ -70,7 +70,6 @@ CAPABILITIES = Capabilities(
     conversions=tables.SILENT_CONVERSIONS,
     places=Places(
         notation="krl",
-        rotation=Rotation.ZYX,
         kinematics=("INVERSE", "FORWARD"),
         rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.PARTIAL, PlaceRule.TURNS)),
     ),
@@ -92,6 +91,8 @@ CAPABILITIES = Capabilities(
     ),
     errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE, Fault.TEXT_PART))),
     routines=Routines(text_results=False, passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.REFERENCES))),
-    control=Control(switch_types=frozenset(("IntType", "CharType", "NamedType")), constant_cases=True),
+    control=Control(
+        switch_types=frozenset(("IntType", "CharType", "NamedType")), limits=frozenset((Limit.CONSTANT_CASES,))
+    ),
     storage=Storage(module_points=ModulePoints.LIST),
 )

@@ -17,9 +17,10 @@ from rpl.passes.capabilities import (
     Motion,
     NameRules,
     Passing,
+    PlaceRule,
     Places,
-    Rotation,
     Routines,
+    SettingRule,
     Settings,
     Storage,
     Tasks,
@@ -53,9 +54,14 @@ CAPABILITIES = Capabilities(
     types=frozenset(type.__name__ for type in TYPE_NAMES),
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED, entry="main"),
     conversions=frozenset(("real", "round_half_away", "trunc", "truth", "code", "char")),
-    places=Places(notation="rapid", rotation=Rotation.QUATERNION),
+    places=Places(notation="rapid", rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.QUATERNIONS, PlaceRule.TURNS))),
     motion=Motion(concurrent=Concurrent.MOVES, turned_ways=frozenset(), paths=frozenset()),
-    settings=Settings(modal=False, reads_override=False, no_tool="tool0", no_frame="wobj0"),
+    settings=Settings(
+        modal=False,
+        rules=frozenset((SettingRule.ASKED_FRAME, SettingRule.TOOL_IN_FORCE)),
+        no_tool="tool0",
+        no_frame="wobj0",
+    ),
     interrupts=Interrupts(shortest_period_s=0.1),  # of ITimer, where it is not a single one
     tasks=Tasks(background=Background.SEPARATE, moving=False, places_beside=True),
     io=Io(

@@ -18,7 +18,6 @@ from rpl.passes.capabilities import (
     Local,
     Passing,
     Places,
-    Rotation,
     Routines,
     Settings,
 )
@@ -40,7 +39,7 @@ CAPABILITIES = Capabilities(
     ),
     conversions=frozenset(ir.CONVERSIONS),
     carries_rules=True,
-    places=Places(notation=words.NATIVE, rotation=Rotation.ZYX),
+    places=Places(notation=words.NATIVE),
     settings=Settings(modal=True),
     io=Io(
         wait_timeout=True, timers=1_000_000, groups=frozenset((GroupRule.COMPUTED, GroupRule.FREE, GroupRule.NUMBERED))

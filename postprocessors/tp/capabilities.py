@@ -27,9 +27,9 @@ from rpl.passes.capabilities import (
     PathRule,
     PlaceRule,
     Places,
-    Rotation,
     Routines,
     SearchResult,
+    SettingRule,
     Settings,
     Storage,
     Tasks,
@@ -98,7 +98,6 @@ CAPABILITIES = Capabilities(
     conversions=frozenset(("real", "trunc", "round_half_away")),
     places=Places(
         notation="tp",
-        rotation=Rotation.ZYX,
         move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
         rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.TURNS, PlaceRule.UNTYPED)),
     ),
@@ -116,7 +115,7 @@ CAPABILITIES = Capabilities(
         of_moves=frozenset((MoveSetting.BLEND, MoveSetting.SPEED)),
         speeds=frozenset(("joint", "path", "rotation", "duration")),
         blends=frozenset(("BlendStop", "BlendPercent", "BlendDistance")),
-        asked_frames=False,
+        rules=frozenset((SettingRule.READ_OVERRIDE, SettingRule.TOOL_IN_FORCE)),
     ),
     interrupts=Interrupts(watched=Watched.INTERRUPTS),
     tasks=Tasks(operations=frozenset(("start",)), moving=False),
@@ -149,11 +148,13 @@ CAPABILITIES = Capabilities(
     ),
     control=Control(
         switch_types=frozenset(("RealType", "IntType")),
-        constant_cases=True,
-        switch_variables=True,
-        else_if=False,
         counting=frozenset((Counting.KEEPS_LAST, Counting.LOOKS_EACH_PASS, Counting.ONE_STEP, Counting.REAL)),
-        limits=frozenset((Limit.FUNCTIONS_ALONE, Limit.PLAIN_PLACES)),
+        limits=frozenset(
+            (
+                *(Limit.FUNCTIONS_ALONE, Limit.PLAIN_PLACES, Limit.ONE_BRANCH),
+                *(Limit.CONSTANT_CASES, Limit.SWITCH_VARIABLES),
+            )
+        ),
     ),
     storage=Storage(
         banks={

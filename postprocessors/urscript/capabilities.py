@@ -21,7 +21,6 @@ from rpl.passes.capabilities import (
     PlaceRule,
     Places,
     Postures,
-    Rotation,
     Routines,
     SearchResult,
     Settings,
@@ -68,7 +67,6 @@ CAPABILITIES = Capabilities(
     conversions=tables.words("real round_half_away trunc bit truth floor code char"),
     places=Places(
         notation="urscript",
-        rotation=Rotation.ZYX,
         postures=Postures.JOINTS,
         rules=frozenset((PlaceRule.IN_BASE, PlaceRule.TURNS)),
     ),

@@ -17,8 +17,8 @@ from rpl.passes.capabilities import (
     NameRules,
     Passing,
     Places,
-    Rotation,
     Routines,
+    SettingRule,
     Settings,
     Tasks,
     TextRule,
@@ -53,7 +53,7 @@ CAPABILITIES = Capabilities(
         further="abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_",
     ),
     conversions=tables.words("real round_half_away trunc bit truth floor"),
-    places=Places(notation="val3", rotation=Rotation.ZYX, rules=frozenset()),
+    places=Places(notation="val3", rules=frozenset()),
     motion=Motion(turned_ways=frozenset(), paths=frozenset()),
     settings=Settings(
         modal=True,
@@ -62,7 +62,7 @@ CAPABILITIES = Capabilities(
         ),
         speeds=frozenset(("joint", "path")),
         blends=frozenset(("BlendDistance",)),
-        tool_in_force=False,
+        rules=frozenset((SettingRule.ASKED_FRAME, SettingRule.READ_OVERRIDE)),
     ),
     tasks=Tasks(operations=frozenset(("start", "stop", "pause", "resume")), places_beside=True),
     io=Io(

@@ -11,12 +11,14 @@ from rpl.passes.capabilities import (
     Control,
     Counting,
     Data,
+    DataRule,
     Errors,
     Fault,
     GroupRule,
     InterruptRule,
     Interrupts,
     Io,
+    Limit,
     Local,
     ModulePoints,
     Motion,
@@ -27,14 +29,13 @@ from rpl.passes.capabilities import (
     PlaceRule,
     Places,
     Postures,
-    Rotation,
     Routines,
+    SettingRule,
     Settings,
     Storage,
     Tasks,
     TextRule,
     Texts,
-    Truth,
 )
 
 from . import tables
@@ -91,7 +92,6 @@ CAPABILITIES = Capabilities(
     conversions=tables.words("real round_half_away trunc bit truth minus_bit floor code char"),
     places=Places(
         notation="vplus",
-        rotation=Rotation.ZYX,
         postures=Postures.JOINTS,
         rules=frozenset((PlaceRule.IN_BASE, PlaceRule.WHOLE)),
     ),
@@ -102,8 +102,7 @@ CAPABILITIES = Capabilities(
     ),
     settings=Settings(
         modal=True,
-        reads_override=False,
-        next_move=True,
+        rules=frozenset((SettingRule.ASKED_FRAME, SettingRule.NEXT_MOVE, SettingRule.TOOL_IN_FORCE)),
         of_moves=frozenset((MoveSetting.BLEND, MoveSetting.FRAME, MoveSetting.SPEED)),
         speeds=frozenset(("joint", "path", "duration")),
         blends=tables.words("BlendDistance BlendPercent BlendSpeed BlendZone"),
@@ -134,7 +133,9 @@ CAPABILITIES = Capabilities(
         )
     ),
     data=Data(
-        truth=Truth.MINUS_ONE, composites=frozenset((Composite.ARRAYS,)), aggregates=frozenset((Aggregate.NAMED,))
+        rules=frozenset((DataRule.ROW_SIZES, DataRule.TRUE_IS_MINUS_ONE)),
+        composites=frozenset((Composite.ARRAYS,)),
+        aggregates=frozenset((Aggregate.NAMED,)),
     ),
     errors=Errors(faults=frozenset((Fault.INDEX_FRACTION,))),
     routines=Routines(
@@ -144,6 +145,10 @@ CAPABILITIES = Capabilities(
         locals=frozenset((Local.CLOCKS, Local.STATICS, Local.VARIABLES)),
         passing=frozenset((Passing.REFERENCES,)),
     ),
-    control=Control(switch_types=tables.words("RealType IntType"), else_if=False, counting=frozenset((Counting.REAL,))),
+    control=Control(
+        switch_types=tables.words("RealType IntType"),
+        limits=frozenset((Limit.ONE_BRANCH,)),
+        counting=frozenset((Counting.REAL,)),
+    ),
     storage=Storage(module_points=ModulePoints.GLOBAL),
 )

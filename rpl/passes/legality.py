@@ -187,7 +187,7 @@ def _of_record(name: str, can: Capabilities) -> bool:
     banks = can.storage.banks.values()
     if name == "deceleration_percent":
         return MoveSetting.DECELERATION in can.settings.of_moves
-    if name == "flag" and banks and not can.io.flags:
+    if name == "flag" and banks and can.io.last_flag == 0:
         return True
     return any(bank.holds == name for bank in banks)
 

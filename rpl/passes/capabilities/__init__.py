@@ -1,16 +1,16 @@
 """What a target's controller can say, as data: one record, its parts by concern."""
 
 from rpl.passes.capabilities.control import Control, Counting, Limit
-from rpl.passes.capabilities.data import Aggregate, Composite, Data, DataRule, Truth
+from rpl.passes.capabilities.data import Aggregate, Composite, Data, DataRule
 from rpl.passes.capabilities.errors import Errors, Fault
 from rpl.passes.capabilities.interrupts import ActionArguments, InterruptRule, Interrupts, Watched
 from rpl.passes.capabilities.io import GroupRule, Io, PulseRule
 from rpl.passes.capabilities.motion import Concurrent, Motion, PathRule, SearchResult, TriggerRule, TurnedWay
 from rpl.passes.capabilities.names import NameRules
-from rpl.passes.capabilities.places import PlaceRule, Places, Postures, Rotation
+from rpl.passes.capabilities.places import PlaceRule, Places, Postures
 from rpl.passes.capabilities.record import Capabilities
 from rpl.passes.capabilities.routines import Local, Parameters, Passing, Routines
-from rpl.passes.capabilities.settings import MoveSetting, Settings
+from rpl.passes.capabilities.settings import MoveSetting, SettingRule, Settings
 from rpl.passes.capabilities.storage import Bank, ModulePoints, Storage
 from rpl.passes.capabilities.tasks import Background, Tasks
 from rpl.passes.capabilities.texts import MessageRule, TextRule, Texts
@@ -47,16 +47,15 @@ __all__ = [
     "Places",
     "Postures",
     "PulseRule",
-    "Rotation",
     "Routines",
     "SearchResult",
+    "SettingRule",
     "Settings",
     "Storage",
     "Tasks",
     "TextRule",
     "Texts",
     "TriggerRule",
-    "Truth",
     "TurnedWay",
     "Watched",
 ]

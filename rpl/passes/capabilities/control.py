@@ -23,7 +23,7 @@ class Counting(StrEnum):
 
 
 class Limit(StrEnum):
-    """What expressions cannot be."""
+    """What expressions and choices cannot be."""
 
     STEPS = auto()
     """An assignment has one operator or function of constants and variables."""
@@ -37,6 +37,15 @@ class Limit(StrEnum):
     FUNCTIONS_ALONE = auto()
     """A function stands only as the whole right side of an assignment."""
 
+    ONE_BRANCH = auto()
+    """An If has one condition."""
+
+    CONSTANT_CASES = auto()
+    """Case values are literals."""
+
+    SWITCH_VARIABLES = auto()
+    """A Switch looks at a variable, at no signal or other value."""
+
 
 @dataclass(frozen=True, slots=True)
 class Control:
@@ -46,20 +55,11 @@ class Control:
 
     limits: frozenset[Limit] = frozenset()
 
-    else_if: bool = True
-    """An If may have several branches."""
-
     short_circuit: bool = False
     """`and` and `or` end early."""
 
     switch_types: frozenset[str] = frozenset()
     """Type classes a Switch may select by (NamedType: enumerations); empty: any type."""
-
-    constant_cases: bool = False
-    """Case values must be literals."""
-
-    switch_variables: bool = False
-    """A Switch looks at a variable, at no signal or other value."""
 
     condition_terms: int = 0
     """How many comparisons a condition has at most, spelled out without brackets, with Limit.COMPARISONS (0: any)."""

@@ -35,15 +35,11 @@ class DataRule(StrEnum):
     """The function `dimension` tells of a list in lists how many there are in any of its dimensions (else the sizes of
     such a list come with it where a routine is given it)."""
 
+    TRUE_IS_MINUS_ONE = auto()
+    """There is no type of truth values, and true is the number -1 (without such a type else: 1)."""
+
     COMPARED_RECORDS = auto()
     """Whole records are compared (else each of their components)."""
-
-
-class Truth(StrEnum):
-    """What a truth value is."""
-
-    BOOL = auto()
-    MINUS_ONE = auto()  # TRUE is the number -1, and there is no type of truth values
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,5 +51,3 @@ class Data:
     composites: frozenset[Composite] = frozenset((Composite.RECORDS, Composite.ARRAYS))
 
     rules: frozenset[DataRule] = frozenset((DataRule.ROW_SIZES,))
-
-    truth: Truth = Truth.BOOL

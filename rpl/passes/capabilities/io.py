@@ -54,11 +54,9 @@ class Io:
 
     pulses: frozenset[PulseRule] = frozenset(PulseRule)
 
-    flags: bool = True
-    """The controller has flags with numbers, or the passes give them names (else they are data)."""
-
-    last_flag: int = 0
-    """The largest number of a flag there is (0: any); flags beyond it are data."""
+    last_flag: int | None = None
+    """The largest number of a flag there is (None: any, or the passes give them names; 0: there are no flags); flags
+    beyond it are data."""
 
     timers: int = 0
     """How many system timers there are (`timer[1]` ...)."""

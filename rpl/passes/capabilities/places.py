@@ -6,13 +6,6 @@ from dataclasses import dataclass
 from enum import StrEnum, auto
 
 
-class Rotation(StrEnum):
-    """The components of a place that turn it."""
-
-    ZYX = auto()  # angles a, b, c
-    QUATERNION = auto()  # rot, of four numbers
-
-
 class Postures(StrEnum):
     """What says which of several postures a place is reached in."""
 
@@ -22,6 +15,9 @@ class Postures(StrEnum):
 
 class PlaceRule(StrEnum):
     """What a controller does with places."""
+
+    QUATERNIONS = auto()
+    """What turns a place is rot, of four numbers (else angles a, b, c about z, y, x)."""
 
     KEEP_ANGLES = auto()
     """A place keeps its angles a, b and c as they were set (else each angle that is set is put together with the
@@ -50,8 +46,6 @@ class Places:
 
     notation: str
     """Of the arm configuration (rpl.emulator.configuration)."""
-
-    rotation: Rotation = Rotation.ZYX
 
     postures: Postures = Postures.FLAGS
 

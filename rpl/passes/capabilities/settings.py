@@ -16,6 +16,22 @@ class MoveSetting(StrEnum):
     DECELERATION = auto()
 
 
+class SettingRule(StrEnum):
+    """What else is true of settings."""
+
+    NEXT_MOVE = auto()
+    """SetForNextMove can be said (else it is attached to the next move)."""
+
+    READ_OVERRIDE = auto()
+    """A program may read the override that it can set."""
+
+    ASKED_FRAME = auto()
+    """A program can ask for the frame in force (else a variable keeps it where one does)."""
+
+    TOOL_IN_FORCE = auto()
+    """Asking for a place without a tool means the one of the last move (else each such question names one)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Settings:
     """What holds for moves, and how it is said."""
@@ -33,17 +49,9 @@ class Settings:
     blends: frozenset[str] = frozenset()
     """Blend classes that it says (BlendStop always), where moves say something themselves."""
 
-    next_move: bool = False
-    """SetForNextMove can be said; otherwise it is attached to the next move."""
-
-    reads_override: bool = True
-    """A program may read the override that it can set."""
-
-    asked_frames: bool = True
-    """A program can ask for the frame in force (else a variable keeps it where one does)."""
-
-    tool_in_force: bool = True
-    """Asking for a place without a tool means the one of the last move (else each such question names one)."""
+    rules: frozenset[SettingRule] = frozenset(
+        (SettingRule.READ_OVERRIDE, SettingRule.ASKED_FRAME, SettingRule.TOOL_IN_FORCE)
+    )
 
     no_tool: str = ""
     """The target's own tool data without any offset, where moves name such data and no plain poses."""

@@ -15,10 +15,11 @@ from rpl.passes.capabilities import (
     Counting,
     Errors,
     Io,
+    Limit,
     NameRules,
     Passing,
+    PlaceRule,
     Places,
-    Rotation,
     Routines,
     Settings,
 )
@@ -56,11 +57,13 @@ PLAIN = Capabilities(
     types=frozenset(("IntType", "RealType", "BoolType", "CharType", "StringType")),
     names=NAMES,
     conversions=frozenset(("real", "round_half_away", "code", "char")),
-    places=Places(notation="krl", rotation=Rotation.ZYX),
+    places=Places(notation="krl"),
     settings=Settings(modal=True),
     io=Io(timers=16),
     routines=Routines(text_results=False),
-    control=Control(switch_types=frozenset(("IntType", "CharType", "NamedType")), constant_cases=True),
+    control=Control(
+        switch_types=frozenset(("IntType", "CharType", "NamedType")), limits=frozenset((Limit.CONSTANT_CASES,))
+    ),
 )
 # A controller with handlers, early `and`, its own loop counters, but neither Repeat nor ExitLoop nor bit operators.
 RICH = Capabilities(
@@ -71,7 +74,7 @@ RICH = Capabilities(
     operators=OPERATORS | {"div", "mod", "cand", "cor", "&", "xor"},
     types=frozenset(("RealType", "BoolType", "StringType", "ClockType")),
     names=NAMES,
-    places=Places(notation="rapid", rotation=Rotation.QUATERNION),
+    places=Places(notation="rapid", rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.QUATERNIONS, PlaceRule.TURNS))),
     settings=Settings(modal=False),
     io=Io(wait_timeout=True),
     errors=Errors(handlers=True),

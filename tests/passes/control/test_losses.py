@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rpl import ir
-from rpl.passes.capabilities import Motion, SearchResult, Settings, Tasks
+from rpl.passes.capabilities import Motion, SearchResult, SettingRule, Settings, Tasks
 from rpl.passes.legalise.errors.errorroutines import error_routines
 from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.refusals import refuse
@@ -97,7 +97,7 @@ def test_a_target_that_has_such_settings_keeps_them() -> None:
     assert (
         rewritten(
             given,
-            target(settings=Settings(modal=True, next_move=True)),
+            target(settings=Settings(modal=True, rules=frozenset((SettingRule.NEXT_MOVE,)))),
             settings_of_next_move,
         )[0]
         is given

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.capabilities import Control, Io, Local, Parameters, Routines
+from rpl.passes.capabilities import Control, Io, Limit, Local, Parameters, Routines
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.functions import functions_to_procedures
@@ -292,7 +292,7 @@ def test_branches_inside_of_each_other() -> None:
     choice = ir.If(((a, (step(1),)), (b, (step(2),))), (step(3),))
     after = same(
         program(choice),
-        target(control=Control(else_if=False)),
+        target(control=Control(limits=frozenset((Limit.ONE_BRANCH,)))),
         nest_branches,
     )
     assert after.modules[0].routines[0].body == (when(a, step(1), otherwise=(when(b, step(2), otherwise=(step(3),)),)),)

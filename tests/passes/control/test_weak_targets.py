@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.capabilities import Capabilities, Control, Counting, Local, Parameters, Passing
+from rpl.passes.capabilities import Capabilities, Control, Counting, Limit, Local, Parameters, Passing
 from rpl.passes.legalise import legalise
 from rpl.passes.legalise.control.loops import fit_loops
 
@@ -27,7 +27,9 @@ LABELS_ONLY = replace(
         PLAIN.routines, functions=False, parameters=Parameters.NONE, locals=PLAIN.routines.locals - {Local.VARIABLES}
     ),
     control=replace(
-        PLAIN.control, else_if=False, counting=PLAIN.control.counting | {Counting.KEEPS_LAST, Counting.ONE_STEP}
+        PLAIN.control,
+        limits=PLAIN.control.limits | {Limit.ONE_BRANCH},
+        counting=PLAIN.control.counting | {Counting.KEEPS_LAST, Counting.ONE_STEP},
     ),
 )
 # Blocks without any jump, values only.
@@ -37,7 +39,9 @@ NO_JUMPS = replace(
     routines=replace(PLAIN.routines, passing=PLAIN.routines.passing - {Passing.REFERENCES}),
 )
 SINGLE_BRANCHES = replace(
-    PLAIN, statements=PLAIN.statements - {"Switch", "WaitUntil"}, control=replace(PLAIN.control, else_if=False)
+    PLAIN,
+    statements=PLAIN.statements - {"Switch", "WaitUntil"},
+    control=replace(PLAIN.control, limits=PLAIN.control.limits | {Limit.ONE_BRANCH}),
 )
 TARGETS = {"labels only": LABELS_ONLY, "no jumps": NO_JUMPS, "single branches": SINGLE_BRANCHES}
 
@@ -49,7 +53,7 @@ def _said(after: ir.Program, capabilities: Capabilities) -> None:
         if isinstance(one, ir.If):
             if "If" not in capabilities.statements:
                 assert len(one.branches) == 1 and not one.otherwise and isinstance(one.branches[0][1][0], ir.Goto)
-            elif not capabilities.control.else_if:
+            elif Limit.ONE_BRANCH in capabilities.control.limits:
                 assert len(one.branches) == 1
         elif name in BLOCKS | JUMPS:
             assert name in capabilities.statements, name

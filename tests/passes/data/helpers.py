@@ -11,8 +11,8 @@ from rpl.passes.capabilities import (
     Control,
     Data,
     NameRules,
+    PlaceRule,
     Places,
-    Rotation,
     Settings,
 )
 from rpl.passes.legalise.context import Context, names_in
@@ -32,7 +32,7 @@ KRL = Capabilities(
     operators=frozenset(("+", "-", "*", "/", "div", ":", "and", "or", "xor", "=", "<>", "<", ">", "<=", ">=")),
     types=frozenset((*SIMPLE, "PoseType", "TargetType", "JointsType")),
     names=NAMES,
-    places=Places(notation="krl", rotation=Rotation.ZYX),
+    places=Places(notation="krl"),
     settings=Settings(modal=True),
     data=Data(
         composites=frozenset((Composite.ARRAYS, Composite.ENUMS, Composite.RECORDS)),
@@ -55,7 +55,7 @@ RAPID = Capabilities(
         )
     ),
     names=NAMES,
-    places=Places(notation="rapid", rotation=Rotation.QUATERNION),
+    places=Places(notation="rapid", rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.QUATERNIONS, PlaceRule.TURNS))),
     settings=Settings(modal=False),
     control=Control(short_circuit=True),
 )

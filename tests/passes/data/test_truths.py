@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import Truth
+from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.storage.truths import truths_to_numbers
 
 from .executed import EVERYTHING, context, read, same
 from .helpers import lines
 
 BITS = replace(EVERYTHING, types=EVERYTHING.types - {"BoolType"})
-MINUS = replace(BITS, data=replace(BITS.data, truth=Truth.MINUS_ONE))
+MINUS = replace(BITS, data=replace(BITS.data, rules=BITS.data.rules | {DataRule.TRUE_IS_MINUS_ONE}))
 MODULE = """
 MODULE m
     RECORD state (ready: BOOL, count: INT)

@@ -5,13 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import Limit
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: context.capabilities.control.else_if or "If" not in context.capabilities.statements)
+@legalising(
+    unless=lambda context: (
+        Limit.ONE_BRANCH not in context.capabilities.control.limits or "If" not in context.capabilities.statements
+    )
+)
 def nest_branches(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose If has one condition. Without blocks the pass of labels knows a shorter form."""
 

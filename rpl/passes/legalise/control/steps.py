@@ -404,7 +404,7 @@ class _Steps(Hoister):
     def switch(self, statement: ir.Switch) -> ir.Body:
         simple = self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits
         before, selector = self.operand(statement.selector) if simple else self.lower(statement.selector)
-        if self.can.control.switch_variables and self.is_signal(selector):
+        if Limit.SWITCH_VARIABLES in self.can.control.limits and self.is_signal(selector):
             kept = self.temporary(ir.IntType())
             before, selector = (*before, ir.Assign(kept, selector)), kept
         cases = tuple(replace(case, body=self.body(case.body)) for case in statement.cases)

@@ -30,11 +30,11 @@ def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
     can = context.capabilities
     numbers = [number for node in walk(*program.modules) if (number := _number(node)) is not None]
     largest = max((number.value for number in numbers if isinstance(number, ir.IntLiteral)), default=0)
-    if can.io.flags and not 0 < can.io.last_flag < largest:
+    if can.io.last_flag is None or (can.io.last_flag and can.io.last_flag >= largest):
         return program
     computed = next((number for number in numbers if not isinstance(number, ir.IntLiteral)), None)
     if computed is None:
-        return _beyond(program, context) if can.io.flags else program
+        return _beyond(program, can.io.last_flag, context) if can.io.last_flag else program
     last = max(_REACH, *(number.value for number in numbers if isinstance(number, ir.IntLiteral)), 1)
     name = context.fresh("flag")
     context.diagnostics.report(COMPUTED, computed.origin, last=last)
@@ -56,13 +56,13 @@ def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=(*modules, home))
 
 
-def _beyond(program: ir.Program, context: Context) -> ir.Program:
+def _beyond(program: ir.Program, last: int, context: Context) -> ir.Program:
     """The program with single variables for the flags whose numbers the target does not have."""
     names: dict[int, str] = {}
 
     def placed(node: object) -> object:
         number = _number(node)
-        if not isinstance(number, ir.IntLiteral) or number.value <= context.capabilities.io.last_flag:
+        if not isinstance(number, ir.IntLiteral) or number.value <= last:
             return node
         assert isinstance(node, ir.Signal | ir.System)  # only these have a number
         if number.value not in names:

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from rpl import ir, registry
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import SettingRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.stages import legalising
@@ -38,7 +39,7 @@ def kept_settings(program: ir.Program, context: Context) -> ir.Program:
     told = {name for move in nodes if isinstance(move, ir.Move) for name in _named(move)}
     wanted = {name for name in read if name not in can.system_variables and name not in told}
     wanted -= {name for name in wanted & _OF_AXES if _as_a_whole(nodes, name)}
-    if not can.settings.asked_frames and _FRAME in read and _FRAME not in told:
+    if SettingRule.ASKED_FRAME not in can.settings.rules and _FRAME in read and _FRAME not in told:
         wanted.add(_FRAME)
     if not wanted:
         return program

@@ -9,6 +9,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import SettingRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.stages import legalising
@@ -25,7 +26,8 @@ _FULL_PERCENT = 100.0
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.settings.reads_override or "override" not in context.capabilities.system_variables
+        SettingRule.READ_OVERRIDE in context.capabilities.settings.rules
+        or "override" not in context.capabilities.system_variables
     ),
     sees=("system override",),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.passes.capabilities import Rotation
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.records.angles import to_angles
 from rpl.passes.legalise.records.quaternions import to_quaternions
@@ -14,6 +14,6 @@ from rpl.passes.legalise.stages import legalising
 def geometry(program: ir.Program, context: Context) -> ir.Program:
     """Poses, targets, joints, vectors and rotations as the target writes them; moves, tools and frames are left to the
     passes of motion, which run before."""
-    if context.capabilities.places.rotation is Rotation.ZYX:
+    if PlaceRule.QUATERNIONS not in context.capabilities.places.rules:
         return to_angles(program, context)
     return to_quaternions(program, context)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Code
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import MoveSetting
+from rpl.passes.capabilities import MoveSetting, SettingRule
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.modalflow import SETTINGS, Flow, State
 from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
@@ -68,7 +68,7 @@ class _Settings:
 
     def __post_init__(self) -> None:
         several = len({repr(value) for value in _tools(self.source)}) > 1
-        self.told = several or not self.context.capabilities.settings.tool_in_force
+        self.told = several or SettingRule.TOOL_IN_FORCE not in self.context.capabilities.settings.rules
         self.flow = Flow.of(self.source, dict(rules_of(self.context.source).system_defaults))
         self.accelerations = Accelerations(self.source, self.context, self.flow.start)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import Composite
+from rpl.passes.capabilities import Composite, Limit
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant, root
@@ -56,7 +56,7 @@ class _Switches(Hoister):
         values = [value for case in statement.cases for value in case.values]
         if not all(self.editor.effects.quiet(value) for value in values):
             return False  # a case that is looked at acts
-        if capabilities.control.constant_cases and not all(map(is_constant, values)):
+        if Limit.CONSTANT_CASES in capabilities.control.limits and not all(map(is_constant, values)):
             return False
         if not capabilities.control.switch_types:
             return True

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.passes.capabilities import Truth
+from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
@@ -35,7 +35,7 @@ class _Truths(Rewriter):
         can = context.capabilities
         have = can.storage.banks or can.types
         self.number: ir.Type = ir.IntType() if "IntType" in have else ir.RealType()
-        self.yes = -1 if can.data.truth is Truth.MINUS_ONE else 1
+        self.yes = -1 if DataRule.TRUE_IS_MINUS_ONE in can.data.rules else 1
 
     def type(self, type: ir.Type) -> ir.Type:
         return self.number if isinstance(type, ir.BoolType) else super().type(type)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
-from rpl.passes.capabilities import Capabilities, MoveSetting
+from rpl.passes.capabilities import Capabilities, MoveSetting, SettingRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.facts.effects import blocks, is_constant, statements_in
@@ -35,7 +35,7 @@ _OTHER_MOTION = (ir.MoveExternal, ir.Spline)
 
 @legalising(
     unless=lambda context: (
-        context.capabilities.settings.next_move
+        SettingRule.NEXT_MOVE in context.capabilities.settings.rules
         and (not context.capabilities.settings.of_moves & {MoveSetting.SPEED, MoveSetting.BLEND})
     ),
     sees=("SetForNextMove",),
@@ -67,7 +67,7 @@ def set_at_move(statement: ir.Statement, can: Capabilities) -> bool:
         return False
     setting = statement.setting.value if isinstance(statement.setting, ir.Magnitude) else statement.setting
     name = setting.name if isinstance(setting, ir.System) else ""
-    return not can.settings.next_move or name in _AT_MOVES
+    return SettingRule.NEXT_MOVE not in can.settings.rules or name in _AT_MOVES
 
 
 def _every(routine: ir.Routine) -> list[ir.Statement]:

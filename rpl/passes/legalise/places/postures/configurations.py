@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import Postures, Rotation
+from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, array, rules_of
 from rpl.passes.legalise.facts.flow import Use, Uses
@@ -309,7 +309,8 @@ class _Configurations(Rewriter):
     @property
     def flat(self) -> bool:
         """Do the target's targets have their flags side by side with the position?"""
-        return self.context.capabilities.places.rotation is Rotation.ZYX if self.foreign else self.side_by_side
+        angles = PlaceRule.QUATERNIONS not in self.context.capabilities.places.rules
+        return angles if self.foreign else self.side_by_side
 
     @property
     def fields(self) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.passes.capabilities import Rotation
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
@@ -96,7 +96,7 @@ class _Worker:
         if key not in self.names:
             name = self.names[key] = self.context.fresh(f"rpl_{node.function}")
             made = _MAKERS[node.function](name, node.function, one, other)
-            whole = self.context.capabilities.places.rotation is Rotation.QUATERNION and node.function in _MOVED
+            whole = PlaceRule.QUATERNIONS in self.context.capabilities.places.rules and node.function in _MOVED
             self.routines.append(_by_wholes(made) if whole else made)
         arguments = tuple(ir.Argument(argument) for argument in node.arguments)
         return ir.Call(self.names[key], arguments, origin=node.origin)

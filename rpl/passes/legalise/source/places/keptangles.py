@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.columns import as_float
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import PlaceRule, Rotation
+from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import root
 from rpl.passes.legalise.stages import legalising
@@ -39,7 +39,7 @@ Key = tuple[str, str]
 @legalising(
     unless=lambda context: (
         PlaceRule.KEEP_ANGLES in context.capabilities.places.rules
-        and context.capabilities.places.rotation is not Rotation.QUATERNION
+        and PlaceRule.QUATERNIONS not in context.capabilities.places.rules
     )
 )
 def named_angles(program: ir.Program, context: Context) -> ir.Program:

@@ -14,6 +14,7 @@ from functools import reduce
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import Limit
 from rpl.passes.conditions import opposite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
@@ -107,8 +108,9 @@ class _Tidy:
 
     def choice(self, statement: ir.If) -> ir.Body:
         branches, otherwise = list(statement.branches), statement.otherwise
+        several = Limit.ONE_BRANCH not in self.editor.capabilities.control.limits
         match otherwise:
-            case (ir.If() as inner,) if not inner.origin.comments and self.editor.capabilities.control.else_if:
+            case (ir.If() as inner,) if not inner.origin.comments and several:
                 branches, otherwise = [*branches, *inner.branches], inner.otherwise
         while branches and not branches[-1][1] and not otherwise and self.silent(branches[-1][0]):
             branches.pop()
