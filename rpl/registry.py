@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 _DIALECTS, _TARGETS = "dialects", "postprocessors"
 
 
-class ReadSources(Protocol):
-    def __call__(self, sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult: ...
+class Fit(Protocol):
+    def __call__(self, options: Mapping[str, str]) -> Capabilities: ...
 
 
 class LastPass(Protocol):
@@ -65,46 +65,80 @@ def _no_companions(path: str) -> tuple[str, ...]:
     return ()
 
 
-def _nothing_stands(sources: Sequence[Source]) -> Standing:
-    return NOTHING
-
-
 def _nothing_said(program: Program) -> tuple[AnalogPorts, ...]:
     return ()
 
 
+@cache
+def _part(package: str, part: str, name: str) -> object:
+    """What a module of a language's folder has under a name, imported when it is asked for; None: neither is there."""
+    place = f"{package}.{part}"
+    return getattr(import_module(place), name, None) if find_spec(place) is not None else None
+
+
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """A language that can be read.
+    """A language that can be read. `package`: its folder as a module, whose parts are imported when asked for:
+
+    `project` (or the module that `reader` names) has `read`, for all sources of one project together; `rules` has
+    RULES, the data of its meaning; and where there are any, `prelude` has `prelude()`, its predefined data and system
+    routines, `configuration` NOTATION, the flags of the arm's configuration, `loading` LOADER, what its controller
+    refuses to load, `standing` has `standing`, what the files of a backup say is on the controller, beside the names
+    that its programs declare.
 
     recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
-    read(sources, diagnostics): all sources of one project together. rules(): the data of its meaning. prelude(): its
-    predefined data and system routines as a module, or None. notation(): arm configuration flags, or None.
     companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
     the language spells a numbered signal. aliases: other words that people ask for it by, such as its maker's name;
     capitals do not count.
     analog_said(program): the ranges of analogue signals that a program of the language itself says. signal_of(text):
-    what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None. standing(sources): what
-    the files of a backup say is on the controller, beside the names that its programs declare. loading(): what its
-    controller refuses to load, or None where nobody knows.
+    what a spelling of a group of numbered signals means (`OG#(2)`: outputs 9 to 16), or None.
     """
 
-    name: str
+    package: str
     title: str
     extensions: tuple[str, ...]
     recognise: Callable[[str, str], int]
-    read: ReadSources
-    rules: Callable[[], Rules]
-    prelude: Callable[[], Module | None]
-    notation: Callable[[], Notation] | None = None
     notation_fields: tuple[str, ...] = ()
     companions: Callable[[str], tuple[str, ...]] = _no_companions
     signal_name: Callable[[str, int], str] = _signal_name
     aliases: tuple[str, ...] = ()
     analog_said: Callable[[Program], tuple[AnalogPorts, ...]] = _nothing_said
     signal_of: Callable[[str], Signal | None] = _no_signal
-    loading: Callable[[], Loader] | None = None
-    standing: Callable[[Sequence[Source]], Standing] = _nothing_stands
+    reader: str = "project"
+
+    @property
+    def name(self) -> str:
+        return self.package.rpartition(".")[2]
+
+    def read(self, sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
+        """The modules of all sources of one project."""
+        return cast("ReadResult", import_module(f"{self.package}.{self.reader}").read(sources, diagnostics))
+
+    def rules(self) -> Rules:
+        """The data of its meaning."""
+        return cast("Rules", import_module(f"{self.package}.rules").RULES)
+
+    def prelude(self) -> Module | None:
+        """Its predefined data and system routines; None where there are none."""
+        made = cast("Callable[[], Module] | None", _part(self.package, "prelude", "prelude"))
+        return None if made is None else made()
+
+    @property
+    def notation(self) -> Callable[[], Notation] | None:
+        """Gives the flags of the arm's configuration; None where the language has none."""
+        found = cast("Notation | None", _part(self.package, "configuration", "NOTATION"))
+        return None if found is None else lambda: found
+
+    @property
+    def loading(self) -> Callable[[], Loader] | None:
+        """Gives what its controller refuses to load; None where nobody knows."""
+        found = cast("Loader | None", _part(self.package, "loading", "LOADER"))
+        return None if found is None else lambda: found
+
+    def standing(self, sources: Sequence[Source]) -> Standing:
+        """What the files of a backup say is on the controller, beside the names that its programs declare."""
+        told = cast("Callable[[Sequence[Source]], Standing] | None", _part(self.package, "standing", "standing"))
+        return NOTHING if told is None else told(sources)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,26 +177,24 @@ class Target:
         if unknown is not None:
             known = "; ".join(f"{name}: {about}" for name, about in self.options.items())
             raise UsageError(f"{self.name} has no option {unknown!r}" + (f": there is {known}" if known else ""))
-        fitted = getattr(import_module(f"{self.package}.capabilities"), "fitted", None)
-        return cast("Capabilities", fitted(options)) if fitted is not None and options else self.capabilities()
+        fitted = cast(
+            "Callable[[Mapping[str, str]], Capabilities] | None", _part(self.package, "capabilities", "fitted")
+        )
+        return fitted(options) if fitted is not None and options else self.capabilities()
 
     def passes(self) -> tuple[Placed, ...]:
         """Rewritings that only it needs, each with its place among those of the core."""
-        return cast("tuple[Placed, ...]", self._of_passes("PASSES"))
+        return cast("tuple[Placed, ...]", _part(self.package, "passes", "PASSES") or ())
 
     def last(self) -> tuple[LastPass, ...]:
         """Rewritings right in front of the writer: what one instruction of the controller says together."""
-        return cast("tuple[LastPass, ...]", self._of_passes("LAST"))
+        return cast("tuple[LastPass, ...]", _part(self.package, "passes", "LAST") or ())
 
     def write(self, program: Program, context: WriteContext) -> list[OutputFile]:
         """The files of a program in the target's terms."""
         for one in self.last():
             program = one(program, context)
         return cast("list[OutputFile]", import_module(f"{self.package}.writer").write(program, context))
-
-    def _of_passes(self, name: str) -> object:
-        place = f"{self.package}.passes"
-        return getattr(import_module(place), name, ()) if find_spec(place) is not None else ()
 
 
 @cache

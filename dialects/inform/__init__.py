@@ -3,21 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from rpl.diagnostics import Diagnostics
-from rpl.registry import Dialect, ReadResult
-from rpl.source import Source
+from rpl.registry import Dialect
 
 from .signals import signal_name, signal_of
-
-if TYPE_CHECKING:
-    from rpl.checks.loading import Loader
-    from rpl.emulator.configuration import Notation
-    from rpl.ir.rules import Rules
-    from rpl.ir.standing import Standing
 
 _JOB = re.compile(r"^\ufeff?\s*/JOB[ \t]*$", re.MULTILINE)
 _DUMP = re.compile(r"\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t]*$", re.MULTILINE)
@@ -50,54 +40,14 @@ def _companions(path: str) -> tuple[str, ...]:
     return tuple(str(file.with_name(name)) for dump in _DUMPS for name in (dump, dump.lower()))
 
 
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
-    from .project import read
-
-    return read(sources, diagnostics)
-
-
-def _rules() -> Rules:
-    from .rules import RULES
-
-    return RULES
-
-
-def _prelude() -> None:
-    return None
-
-
-def _notation() -> Notation:
-    from .configuration import NOTATION
-
-    return NOTATION
-
-
-def _standing(sources: Sequence[Source]) -> Standing:
-    from .standing import standing
-
-    return standing(sources)
-
-
-def _loading() -> Loader:
-    from .loading import LOADER
-
-    return LOADER
-
-
 DIALECT = Dialect(
-    name="inform",
+    __name__,
     title="Yaskawa INFORM",
     extensions=(".jbi", ".dat", ".cnd"),
     recognise=_recognise,
-    read=_read,
-    rules=_rules,
-    prelude=_prelude,
-    notation=_notation,
     notation_fields=("noflip", "lower", "rear", "r180", "t180", "s180"),
     signal_name=signal_name,
     signal_of=signal_of,
     companions=_companions,
     aliases=("yaskawa", "motoman"),
-    loading=_loading,
-    standing=_standing,
 )

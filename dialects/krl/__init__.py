@@ -3,19 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from rpl.diagnostics import Diagnostics
-from rpl.registry import Dialect, ReadResult, words
-from rpl.source import Source
-
-if TYPE_CHECKING:
-    from rpl.checks.loading import Loader
-    from rpl.emulator.configuration import Notation
-    from rpl.ir import Module
-    from rpl.ir.rules import Rules
+from rpl.registry import Dialect, words
 
 _FRAME = re.compile(
     r"^[ \t\ufeff]*(?:(?:GLOBAL\s+)?DEF(?:FCT\s+[\w$]+(?:\[[^\]]*\])?)?\s+[\w$]+\s*\("
@@ -60,54 +50,19 @@ def _companions(path: str) -> tuple[str, ...]:
     return tuple(name for name in found if name != path)
 
 
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
-    from .project import read
-
-    return read(sources, diagnostics)
-
-
-def _rules() -> Rules:
-    from .rules import RULES
-
-    return RULES
-
-
-def _prelude() -> Module:
-    from .prelude import prelude
-
-    return prelude()
-
-
-def _notation() -> Notation:
-    from .configuration import NOTATION
-
-    return NOTATION
-
-
 def _signal_name(kind: str, number: int) -> str:
     """How KRL spells a physical signal."""
     known = words("krl")
     return f"{(known.pairs('signals') | known.pairs('groups'))[kind]}[{number}]"
 
 
-def _loading() -> Loader:
-    from .loading import LOADER
-
-    return LOADER
-
-
 DIALECT = Dialect(
-    name="krl",
+    __name__,
     title="KUKA KRL",
     extensions=(".src", ".dat", ".sub"),
     recognise=_recognise,
-    read=_read,
-    rules=_rules,
-    prelude=_prelude,
-    notation=_notation,
     notation_fields=("s", "t"),
     companions=_companions,
     signal_name=_signal_name,
     aliases=("kuka", "krc"),
-    loading=_loading,
 )

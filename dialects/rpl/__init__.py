@@ -2,44 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
-
-from rpl.registry import Dialect, ReadResult
+from rpl.registry import Dialect
 
 from .recognise import recognise
 from .words import POSTURE_FLAGS
-
-if TYPE_CHECKING:
-    from rpl.diagnostics import Diagnostics
-    from rpl.emulator.configuration import Notation
-    from rpl.ir import Module
-    from rpl.ir.rules import Rules
-    from rpl.source import Source
-
-
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
-    from .reader import read
-
-    return read(sources, diagnostics)
-
-
-def _rules() -> Rules:
-    from .rules import RULES
-
-    return RULES
-
-
-def _prelude() -> Module | None:
-    from .rules import prelude
-
-    return prelude()
-
-
-def _notation() -> Notation:
-    from .configuration import NOTATION
-
-    return NOTATION
 
 
 def _signal_name(kind: str, number: int) -> str:
@@ -50,14 +16,11 @@ def _signal_name(kind: str, number: int) -> str:
 
 
 DIALECT = Dialect(
-    name="rpl",
+    __name__,
     title="RPL, the universal robot programming language",
     extensions=(".rpl",),
     recognise=recognise,
-    read=_read,
-    rules=_rules,
-    prelude=_prelude,
-    notation=_notation,
     notation_fields=POSTURE_FLAGS,
     signal_name=_signal_name,
+    reader="reader",
 )

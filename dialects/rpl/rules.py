@@ -7,7 +7,6 @@ statement begins; behind a move with a blend the program goes on when the robot 
 
 from __future__ import annotations
 
-from rpl import ir
 from rpl.ir.analog import AnalogPorts, AnalogRange
 from rpl.ir.rules import AdvanceRules, InputRules, Range, Rules
 from rpl.ir.words import NATIVE
@@ -73,15 +72,3 @@ RULES = Rules(
     },
     errors={name: _FIRST_ERROR + position for position, name in enumerate(_ERROR_NAMES)},
 )
-
-
-def prelude() -> ir.Module:
-    """What every RPL program knows: the numbers of the errors by their names."""
-    return ir.Module(
-        "prelude",
-        NATIVE,
-        tuple(
-            ir.Variable(name, ir.IntType(), ir.IntLiteral(number), "constant", "global")
-            for name, number in RULES.errors.items()
-        ),
-    )

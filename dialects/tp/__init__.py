@@ -3,20 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from rpl.diagnostics import Diagnostics
-from rpl.registry import Dialect, ReadResult
-from rpl.source import Source
-
-if TYPE_CHECKING:
-    from rpl.checks.loading import Loader
-    from rpl.emulator.configuration import Notation
-    from rpl.ir import Module
-    from rpl.ir.rules import Rules
-    from rpl.ir.standing import Standing
+from rpl.registry import Dialect
 
 _HEAD = re.compile(r"^[ \t\ufeff]*/PROG\b", re.MULTILINE)
 _BODY = re.compile(r"^[ \t]*/(?:MN|ATTR)\b", re.MULTILINE)
@@ -48,28 +37,6 @@ def _companions(path: str) -> tuple[str, ...]:
     return tuple(str(file.with_name(name)) for dump in _DUMPS for name in (dump, dump.upper()))
 
 
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
-    from .project import read
-
-    return read(sources, diagnostics)
-
-
-def _rules() -> Rules:
-    from .rules import RULES
-
-    return RULES
-
-
-def _prelude() -> Module | None:
-    return None
-
-
-def _notation() -> Notation:
-    from .configuration import NOTATION
-
-    return NOTATION
-
-
 _SIGNALS = {
     "digital_in": "DI",
     "digital_out": "DO",
@@ -86,31 +53,13 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{_SIGNALS[kind]}[{number}]"
 
 
-def _standing(sources: Sequence[Source]) -> Standing:
-    from .standing import standing
-
-    return standing(sources)
-
-
-def _loading() -> Loader:
-    from .loading import LOADER
-
-    return LOADER
-
-
 DIALECT = Dialect(
-    name="tp",
+    __name__,
     title="FANUC TP",
     extensions=(".ls", ".va"),
     recognise=_recognise,
-    read=_read,
-    rules=_rules,
-    prelude=_prelude,
-    notation=_notation,
     companions=_companions,
     notation_fields=("flip", "down", "back", "t1", "t4", "t6"),
     signal_name=_signal_name,
     aliases=("fanuc",),
-    loading=_loading,
-    standing=_standing,
 )

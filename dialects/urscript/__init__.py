@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rpl.diagnostics import Diagnostics
-from rpl.registry import Dialect, ReadResult
-from rpl.source import Source
+from rpl.registry import Dialect
 
 if TYPE_CHECKING:
-    from rpl.checks.loading import Loader
-    from rpl.emulator.configuration import Notation
-    from rpl.ir import Module, Program
+    from rpl.ir import Program
     from rpl.ir.analog import AnalogPorts
-    from rpl.ir.rules import Rules
 
 _HEADER = re.compile(
     r"^[ \t\ufeff]*(?:def|thread|sec)[ \t]+\w+[ \t]*\([^()\n]*(?:\([^()\n]*\)[^()\n]*)*\)[ \t]*:", re.MULTILINE
@@ -60,28 +54,6 @@ def _is_saved_program(text: str) -> bool:
     return text.lstrip("\ufeff \t\r\n").startswith(("<URProgram", "<?xml")) and "<URProgram" in text[:2000]
 
 
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
-    from .project import read
-
-    return read(sources, diagnostics)
-
-
-def _rules() -> Rules:
-    from .rules import RULES
-
-    return RULES
-
-
-def _no_prelude() -> Module | None:
-    return None
-
-
-def _notation() -> Notation:
-    from .configuration import NOTATION
-
-    return NOTATION
-
-
 def _analog_said(program: Program) -> tuple[AnalogPorts, ...]:
     from .levels import said
 
@@ -103,24 +75,13 @@ def _signal_name(kind: str, number: int) -> str:
     return f"{kind}[{number - 1}]"
 
 
-def _loading() -> Loader:
-    from .loading import LOADER
-
-    return LOADER
-
-
 DIALECT = Dialect(
-    name="urscript",
+    __name__,
     title="Universal Robots URScript",
     extensions=(".script", ".urscript", ".ur", ".urp"),
     recognise=_recognise,
-    read=_read,
-    rules=_rules,
-    prelude=_no_prelude,
-    notation=_notation,
     notation_fields=(),
     signal_name=_signal_name,
     aliases=("ur", "universal robots", "universal-robots"),
     analog_said=_analog_said,
-    loading=_loading,
 )

@@ -3,19 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from rpl.diagnostics import Diagnostics
-from rpl.registry import Dialect, ReadResult
-from rpl.source import Source
-
-if TYPE_CHECKING:
-    from rpl.checks.loading import Loader
-    from rpl.emulator.configuration import Notation
-    from rpl.ir import Module
-    from rpl.ir.rules import Rules
+from rpl.registry import Dialect
 
 # The root elements of the three kinds of files, as controllers before and since VAL3 s7 write them.
 _ROOT = re.compile(
@@ -38,47 +28,12 @@ def _companions(path: str) -> tuple[str, ...]:
     return tuple(file for file in files if file != path)
 
 
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
-    from .project import read
-
-    return read(sources, diagnostics)
-
-
-def _rules() -> Rules:
-    from .rules import RULES
-
-    return RULES
-
-
-def _prelude() -> Module:
-    from .rules import PRELUDE
-
-    return PRELUDE
-
-
-def _notation() -> Notation:
-    from .configuration import NOTATION
-
-    return NOTATION
-
-
-def _loading() -> Loader:
-    from .loading import LOADER
-
-    return LOADER
-
-
 DIALECT = Dialect(
-    name="val3",
+    __name__,
     title="Staubli VAL3",
     extensions=(".pjx", ".pgx", ".dtx"),
     recognise=_recognise,
-    read=_read,
-    rules=_rules,
-    prelude=_prelude,
-    notation=_notation,
     notation_fields=("shoulder", "elbow", "wrist"),
     companions=_companions,
     aliases=("staubli", "stäubli", "cs8", "cs9"),
-    loading=_loading,
 )

@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from typing import Final
 
-from rpl import ir
 from rpl.ir.rules import AdvanceRules, Rules
 
 # M: one cycle of the controller, s.
@@ -62,11 +61,5 @@ RULES = Rules(
     },
 )
 
-_REAL = ir.RealType()
 # A movement descriptor. `blend`: 0 off, 1 joint, 2 Cartesian.
 MDESC: Final = ("accel", "vel", "decel", "tvel", "rvel", "blend", "leave", "reach")
-PRELUDE = ir.Module(
-    "val3_prelude",
-    "val3",
-    (ir.RecordDeclaration("mdesc", tuple((name, _REAL) for name in MDESC), "global"),),
-)

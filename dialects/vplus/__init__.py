@@ -3,18 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from rpl.diagnostics import Diagnostics
-from rpl.registry import Dialect, ReadResult
-from rpl.source import Source
-
-if TYPE_CHECKING:
-    from rpl.checks.loading import Loader
-    from rpl.emulator.configuration import Notation
-    from rpl.ir.rules import Rules
+from rpl.registry import Dialect
 
 _FRAME = re.compile(r"^[ \t\ufeff]*\.PROGRAM[ \t]+[A-Za-z_][\w.]*", re.IGNORECASE | re.MULTILINE)
 _STATEMENTS = re.compile(
@@ -48,24 +39,6 @@ def _recognise(path: str, text: str) -> int:
     return 0
 
 
-def _read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
-    from .project import read
-
-    return read(sources, diagnostics)
-
-
-def _rules() -> Rules:
-    from .rules import RULES
-
-    return RULES
-
-
-def _notation() -> Notation:
-    from .configuration import NOTATION
-
-    return NOTATION
-
-
 def _signal_name(kind: str, number: int) -> str:
     """How V+ spells a physical signal: by its number alone. Numbers that V+ has no place for say what they are."""
     from . import tables
@@ -78,23 +51,12 @@ def _signal_name(kind: str, number: int) -> str:
     return str(number + offset) if number <= tables.MOST_SIGNALS or robot else f"{kind} {number}"
 
 
-def _loading() -> Loader:
-    from .loading import LOADER
-
-    return LOADER
-
-
 DIALECT = Dialect(
-    name="vplus",
+    __name__,
     title="Adept V+",
     extensions=(".v2", ".pg", ".lc", ".re", ".st"),
     recognise=_recognise,
-    read=_read,
-    rules=_rules,
-    prelude=lambda: None,
-    notation=_notation,
     notation_fields=("shoulder", "elbow", "wrist"),
     signal_name=_signal_name,
     aliases=("v+", "adept"),
-    loading=_loading,
 )
