@@ -29,6 +29,12 @@ A program is rewritten for what its target lacks, stage by stage in the order of
 program holds something that it sees. What no pass rewrites is refused by name ([what is supported](support.md)).
 """
 
+_LAST = """## In front of the writer
+
+What one instruction of the target says together, and what its files share: `LAST` of `postprocessors/<target>/passes/`.
+It is done when all names are given, also where a program is written in its own language.
+"""
+
 
 def purpose_of(one: Pass) -> str:
     """The first sentence of its file, or its own where the file holds several passes."""
@@ -83,7 +89,18 @@ def page() -> str:
             home = one.run.__module__.rpartition(".")[2]
             lines.append(f"| `{home}.{one.name}` | {purpose_of(one)} | {shown} | {sees} |")
         lines.append("")
-    return "\n".join(lines)
+    return "\n".join([*lines, *last()])
+
+
+def last() -> list[str]:
+    """The passes right in front of the writers."""
+    rows = [_LAST, "| pass | what it does | for |", "|---|---|---|"]
+    for target in registry.target_names():
+        for one in registry.target(target).last():
+            home = import_module(one.__module__)
+            text = " ".join((home.__doc__ or "").split()).split(". ")[0].rstrip(".")
+            rows.append(f"| `{one.__module__.rpartition('.')[2]}.{one.__name__}` | {text} | {target} |")
+    return [*rows, ""]
 
 
 if __name__ == "__main__":
