@@ -10,6 +10,7 @@ from rpl.passes.scope import Scope
 from rpl.writing.statements import CannotSayError
 
 from .expressions import Expressions
+from .facts.programs import assigns
 from .places import is_matrix
 
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
@@ -107,26 +108,6 @@ def header(routine: ir.Routine) -> dict[str, str]:
     for parameter in routine.parameters:
         if parameter.optional or parameter.switch:
             raise CannotSayError("there are no optional parameters")
-        if parameter.mode == "reference" and _assigned(parameter.name, routine):
+        if parameter.mode == "reference" and assigns(parameter.name, routine):
             raise CannotSayError(f"the parameter {parameter.name} gives a value back, and arguments are copies")
     return {"name": routine.name, "parameters": ", ".join(parameter.name for parameter in routine.parameters)}
-
-
-def _assigned(name: str, routine: ir.Routine) -> bool:
-    """May the routine write its parameter?"""
-    from rpl.ir.walk import walk
-
-    for node in walk(routine.body):
-        match node:
-            case ir.Assign(target=target):
-                while isinstance(target, ir.Index | ir.Field):
-                    target = target.base
-                if isinstance(target, ir.Name) and target.id == name:
-                    return True
-            case ir.Do(arguments=arguments) if ir.Name(name) in arguments:
-                return True
-            case ir.For(counter=counter) if counter == name:
-                return True
-            case ir.CallRoutine(arguments=given) if any(one.value == ir.Name(name) for one in given):
-                return True
-    return False

@@ -12,9 +12,10 @@ from rpl.writing.target import OutputFile, WriteContext
 from rpl.writing.templates import macros_of
 
 from .declarations import first_value, header
+from .facts.programs import called_names, names_of, not_reached, programs, started
 from .facts.standing import Standing
 from .helpers import HELPERS
-from .namespace import called_names, names_of, not_reached, one_namespace, programs
+from .namespace import one_namespace
 from .statements import INDENT, Output, Printer
 
 LOST_DECLARATION = code(
@@ -59,9 +60,7 @@ class _Script:
         called = called_names(self.program)
         self.is_body = self.start is not None and self.start.name.lower() not in called
         self.tasks = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
-        self.started = {
-            node.task.lower() for node in walk(self.program) if isinstance(node, ir.TaskControl) and node.op == "start"
-        }
+        self.started = started(self.program)
 
     def file(self) -> OutputFile:
         name = self.name()

@@ -12,6 +12,7 @@ from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 
 from . import settings, tables
+from .facts.routines import stores
 from .output import BodyPrinter
 
 KEYS = code(
@@ -315,7 +316,7 @@ class Actions:
         variable = isinstance(value, ir.Name | ir.Index) and "(" not in text
         if not variable or parameter is None or parameter.mode != "value" or routine is None:
             return text
-        if not self.is_own(value) or _stores(routine, parameter.name):
+        if not self.is_own(value) or stores(routine, parameter.name):
             if isinstance(self.expressions.type(value), ir.JointsType):
                 name = self.expressions.notes.temporary("#p")
                 self.expressions.notes.step(f"SET {name} = {text}")
@@ -501,30 +502,6 @@ def _joined(one: ir.Expression, other: ir.Expression) -> ir.Expression:
     if isinstance(one, ir.TextLiteral) and isinstance(other, ir.TextLiteral):
         return ir.TextLiteral(one.value + other.value)
     return ir.Binary("&", one, other)
-
-
-def _stores(routine: ir.Routine, name: str) -> bool:
-    """May the routine change this parameter?"""
-    key = name.lower()
-
-    def is_it(place: object) -> bool:
-        while isinstance(place, ir.Index | ir.Field):
-            place = place.base
-        return isinstance(place, ir.Name) and place.id.lower() == key
-
-    for node in walk(routine.body):
-        match node:
-            case ir.Assign(target=target) if is_it(target):
-                return True
-            case ir.For(counter=counter) if counter.lower() == key:
-                return True
-            case ir.Dialog(answer=answer) if is_it(answer):
-                return True
-            case ir.Do(arguments=(first, *_)) if is_it(first):
-                return True
-            case ir.CallRoutine(arguments=arguments) if any(is_it(one.value) for one in arguments):
-                return True
-    return False
 
 
 def _without_comments(origin: Origin) -> Origin:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -21,6 +20,7 @@ from .data import declared, stored, values
 from .facts.corners import Corners
 from .facts.interrupts import Interrupts
 from .facts.names import names_of, starts
+from .facts.routines import filled, labels_of
 from .facts.tasks import tasks_of
 from .facts.usualspeed import usual_speed
 from .helpers import HELPERS
@@ -174,7 +174,7 @@ class _File:
     def routine(self, module: ir.Module, routine: ir.Routine) -> tuple[ProgramText, bool]:
         """A program, and whether it is one to start with."""
         scope = self.scopes.routine(module, routine)
-        printer = Printer(scope, self.output, _labels(routine))
+        printer = Printer(scope, self.output, labels_of(routine))
         remarks = Printer(scope, self.output)
         remarks.comments_only(routine.origin)
         self.ledger.written(routine)
@@ -219,7 +219,7 @@ class _File:
                     if word == "LOCAL" and declaration.initial is not None:
                         self.first_time(declaration, printer)
                     else:
-                        given = values(declaration) or _filled(declaration, routine)
+                        given = values(declaration) or filled(declaration, routine)
                         if not given and word == "AUTO" and self.output.facts.foreign:
                             given = _never_set(declaration, self.assigned)
                         for place, _, value in given:
@@ -267,18 +267,6 @@ class _File:
             self.ledger.reported(statement)
 
 
-def _filled(variable: ir.Variable, routine: ir.Routine) -> list[tuple[ir.Expression, ir.Type, ir.Expression]]:
-    """A location that gets its components one by one begins as NULL."""
-    name = ir.Name(variable.name)
-    if not isinstance(variable.type, ir.PoseType | ir.TargetType):
-        return []
-    for node in walk(routine.body):
-        match node:
-            case ir.Assign(target=ir.Field(base=ir.Name(id=other))) if other.lower() == variable.name.lower():
-                return [(name, variable.type, ir.System("null_frame"))]
-    return []
-
-
 def _never_set(variable: ir.Variable, assigned: set[str]) -> list[tuple[ir.Expression, ir.Type, ir.Expression]]:
     """A variable that nothing is stored into has the source's value of no value: zero."""
     zero = _ZEROS.get(variable.type.__class__) if variable.name.lower() not in assigned else None
@@ -295,14 +283,6 @@ def _head(routine: ir.Routine) -> str:
             name += f"[{',' * (len(parameter.type.dimensions) - 1)}]"
         names.append(name)
     return f".PROGRAM {routine.name.lower()}({', '.join(names)})"
-
-
-def _labels(routine: ir.Routine) -> dict[str, str]:
-    """A number for each label: its own where all are numbers, else 10, 20, ..."""
-    names = [node.name.lower() for node in walk(routine.body) if isinstance(node, ir.Label)]
-    if all(name.isdigit() for name in names):
-        return {name: name for name in names}
-    return {name: str(number * 10) for number, name in enumerate(dict.fromkeys(names), 1)}
 
 
 def _declarations(found: list[tuple[str, str]], autos: list[str], indent: str) -> list[str]:
