@@ -24,6 +24,7 @@ from rpl.passes.capabilities import (
     PlaceRule,
     Places,
     PulseRule,
+    RoutineRule,
     Routines,
     SearchResult,
     Settings,
@@ -104,10 +105,8 @@ CAPABILITIES = Capabilities(
     data=Data(aggregates=frozenset((Aggregate.CONSTANT, Aggregate.NAMED)), composites=frozenset()),
     errors=Errors(faults=frozenset((Fault.TEXT_PART,))),
     routines=Routines(
-        local_routines=False,
-        functions=False,
         parameters=Parameters.NONE,
-        recursion=False,
+        rules=frozenset((RoutineRule.TEXT_RESULTS,)),
         locals=frozenset((Local.CLOCKS, Local.STATICS)),
     ),
     control=Control(

@@ -27,6 +27,7 @@ from rpl.passes.capabilities import (
     PathRule,
     PlaceRule,
     Places,
+    RoutineRule,
     Routines,
     Settings,
     Storage,
@@ -90,7 +91,10 @@ CAPABILITIES = Capabilities(
         rules=frozenset((DataRule.LISTS, DataRule.ROW_SIZES)),
     ),
     errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE, Fault.TEXT_PART))),
-    routines=Routines(text_results=False, passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.REFERENCES))),
+    routines=Routines(
+        rules=frozenset((RoutineRule.FUNCTIONS, RoutineRule.LOCAL, RoutineRule.RECURSION)),
+        passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.REFERENCES)),
+    ),
     control=Control(
         switch_types=frozenset(("IntType", "CharType", "NamedType")), limits=frozenset((Limit.CONSTANT_CASES,))
     ),

@@ -19,6 +19,7 @@ from rpl.passes.capabilities import (
     Passing,
     PlaceRule,
     Places,
+    RoutineRule,
     Routines,
     SettingRule,
     Settings,
@@ -83,7 +84,15 @@ CAPABILITIES = Capabilities(
     data=Data(rules=frozenset((DataRule.ALIASES, DataRule.COMPARED_RECORDS, DataRule.ROW_SIZES))),
     errors=Errors(handlers=True),
     routines=Routines(
-        dynamic_calls=True,
+        rules=frozenset(
+            (
+                RoutineRule.COMPUTED_NAMES,
+                RoutineRule.FUNCTIONS,
+                RoutineRule.LOCAL,
+                RoutineRule.RECURSION,
+                RoutineRule.TEXT_RESULTS,
+            )
+        ),
         passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.OPTIONAL, Passing.REFERENCES, Passing.WRITTEN_LISTS)),
     ),
     control=Control(

@@ -18,6 +18,7 @@ from rpl.passes.capabilities import (
     Local,
     Passing,
     Places,
+    RoutineRule,
     Routines,
     Settings,
 )
@@ -50,7 +51,15 @@ CAPABILITIES = Capabilities(
     ),
     errors=Errors(handlers=True),
     routines=Routines(
-        dynamic_calls=True,
+        rules=frozenset(
+            (
+                RoutineRule.COMPUTED_NAMES,
+                RoutineRule.FUNCTIONS,
+                RoutineRule.LOCAL,
+                RoutineRule.RECURSION,
+                RoutineRule.TEXT_RESULTS,
+            )
+        ),
         passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.OPTIONAL, Passing.REFERENCES, Passing.WRITTEN_LISTS)),
         locals=frozenset((Local.CLOCKS, Local.STATICS, Local.VARIABLES)),
     ),

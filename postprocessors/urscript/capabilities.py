@@ -21,6 +21,7 @@ from rpl.passes.capabilities import (
     PlaceRule,
     Places,
     Postures,
+    RoutineRule,
     Routines,
     SearchResult,
     Settings,
@@ -94,7 +95,15 @@ CAPABILITIES = Capabilities(
     data=Data(aggregates=frozenset((Aggregate.NAMED,)), rules=frozenset()),
     errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE,))),
     routines=Routines(
-        list_results=True,
+        rules=frozenset(
+            (
+                RoutineRule.FUNCTIONS,
+                RoutineRule.LIST_RESULTS,
+                RoutineRule.LOCAL,
+                RoutineRule.RECURSION,
+                RoutineRule.TEXT_RESULTS,
+            )
+        ),
         passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.WRITTEN_LISTS)),
         locals=frozenset((Local.VARIABLES,)),
     ),

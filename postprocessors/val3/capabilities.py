@@ -17,6 +17,7 @@ from rpl.passes.capabilities import (
     NameRules,
     Passing,
     Places,
+    RoutineRule,
     Routines,
     SettingRule,
     Settings,
@@ -82,7 +83,9 @@ CAPABILITIES = Capabilities(
     ),
     texts=Texts(rules=frozenset((TextRule.CASE, TextRule.PARTS, TextRule.PRINTABLE))),
     data=Data(aggregates=frozenset((Aggregate.NAMED,)), composites=frozenset((Composite.ARRAYS,)), rules=frozenset()),
-    routines=Routines(functions=False, passing=frozenset((Passing.REFERENCES,)), local_routines=False),
+    routines=Routines(
+        passing=frozenset((Passing.REFERENCES,)), rules=frozenset((RoutineRule.RECURSION, RoutineRule.TEXT_RESULTS))
+    ),
     errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE, Fault.INDEX_FRACTION))),
     control=Control(
         counting=frozenset((Counting.REAL,)),

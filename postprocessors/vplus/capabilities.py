@@ -29,6 +29,7 @@ from rpl.passes.capabilities import (
     PlaceRule,
     Places,
     Postures,
+    RoutineRule,
     Routines,
     SettingRule,
     Settings,
@@ -140,8 +141,7 @@ CAPABILITIES = Capabilities(
     errors=Errors(faults=frozenset((Fault.INDEX_FRACTION,))),
     routines=Routines(
         most_arguments=5,  # a call stands in one line: what nothing reads is left out of longer ones
-        functions=False,
-        recursion=True,
+        rules=frozenset((RoutineRule.LOCAL, RoutineRule.RECURSION, RoutineRule.TEXT_RESULTS)),
         locals=frozenset((Local.CLOCKS, Local.STATICS, Local.VARIABLES)),
         passing=frozenset((Passing.REFERENCES,)),
     ),

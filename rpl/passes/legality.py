@@ -25,6 +25,7 @@ from rpl.passes.capabilities import (
     Parameters,
     Passing,
     PathRule,
+    RoutineRule,
     SearchResult,
     TriggerRule,
 )
@@ -123,7 +124,7 @@ def kind_of(node: object, can: Capabilities) -> str:
             return _of_routine(node, can)
         case ir.TaskControl(op=op) if "TaskControl" in can.statements:
             return "" if op in can.tasks.operations else f"operation {op} of a task"
-        case ir.CallRoutine(dynamic=name) if name is not None and not can.routines.dynamic_calls:
+        case ir.CallRoutine(dynamic=name) if name is not None and RoutineRule.COMPUTED_NAMES not in can.routines.rules:
             return "call by a computed name"
         case ir.Search() if "Search" in can.statements:
             gives = (SearchResult.FOUND, node.found), (SearchResult.HIT, node.hit)
@@ -159,11 +160,11 @@ def _of_routine(node: ir.Routine | ir.Parameter | ir.Variable, can: Capabilities
             return "optional parameter"
         case ir.Parameter() if rules.parameters is Parameters.NONE:
             return "parameter"
-        case ir.Routine(returns=ir.ArrayType()) if not rules.list_results:
+        case ir.Routine(returns=ir.ArrayType()) if RoutineRule.LIST_RESULTS not in rules.rules:
             return "function that gives a list"
-        case ir.Routine(returns=type) if type is not None and not rules.functions:
+        case ir.Routine(returns=type) if type is not None and RoutineRule.FUNCTIONS not in rules.rules:
             return "function of the program"
-        case ir.Routine(returns=ir.StringType()) if not rules.text_results:
+        case ir.Routine(returns=ir.StringType()) if RoutineRule.TEXT_RESULTS not in rules.rules:
             return "function that gives a text"
         case ir.Variable(name=name, type=type) if type.__class__.__name__ in can.storage.banks:
             return "" if _NUMBERED.fullmatch(name) else "datum without a number"

@@ -9,7 +9,7 @@ from rpl.passes.capabilities.motion import Concurrent, Motion, PathRule, SearchR
 from rpl.passes.capabilities.names import NameRules
 from rpl.passes.capabilities.places import PlaceRule, Places, Postures
 from rpl.passes.capabilities.record import Capabilities
-from rpl.passes.capabilities.routines import Local, Parameters, Passing, Routines
+from rpl.passes.capabilities.routines import Local, Parameters, Passing, RoutineRule, Routines
 from rpl.passes.capabilities.settings import MoveSetting, SettingRule, Settings
 from rpl.passes.capabilities.storage import Bank, ModulePoints, Storage
 from rpl.passes.capabilities.tasks import Background, Tasks
@@ -47,6 +47,7 @@ __all__ = [
     "Places",
     "Postures",
     "PulseRule",
+    "RoutineRule",
     "Routines",
     "SearchResult",
     "SettingRule",

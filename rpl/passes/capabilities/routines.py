@@ -38,6 +38,32 @@ class Local(StrEnum):
     CLOCKS = auto()  # stop watches
 
 
+class RoutineRule(StrEnum):
+    """What else routines can be and do."""
+
+    FUNCTIONS = auto()
+    """There are functions of the program (else procedures that leave their result in a variable)."""
+
+    TEXT_RESULTS = auto()
+    """Functions may return texts."""
+
+    LIST_RESULTS = auto()
+    """Functions may return arrays (else they write a parameter)."""
+
+    LOCAL = auto()
+    """A routine can be seen by its module alone."""
+
+    RECURSION = auto()
+    """A routine may be active twice, each time with variables of its own (else calls that lead back are refused)."""
+
+    COMPUTED_NAMES = auto()
+    """A procedure may be called by a name computed at run time."""
+
+
+# What most languages have.
+_USUAL = frozenset((RoutineRule.FUNCTIONS, RoutineRule.TEXT_RESULTS, RoutineRule.LOCAL, RoutineRule.RECURSION))
+
+
 @dataclass(frozen=True, slots=True)
 class Routines:
     """What routines can be."""
@@ -48,23 +74,7 @@ class Routines:
 
     locals: frozenset[Local] = frozenset((Local.VARIABLES, Local.CLOCKS))
 
-    functions: bool = True
-    """There are functions of the program (else procedures that leave their result in a variable)."""
-
-    text_results: bool = True
-    """Functions may return texts."""
-
-    list_results: bool = False
-    """Functions may return arrays (else they write a parameter)."""
-
-    local_routines: bool = True
-    """A routine can be seen by its module alone."""
-
-    recursion: bool = True
-    """A routine may be active twice, each time with variables of its own (else calls that lead back are refused)."""
+    rules: frozenset[RoutineRule] = _USUAL
 
     most_arguments: int = 0
     """How many arguments a call has at most (0: any)."""
-
-    dynamic_calls: bool = False
-    """A procedure may be called by a name computed at run time."""

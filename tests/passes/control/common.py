@@ -20,6 +20,7 @@ from rpl.passes.capabilities import (
     Passing,
     PlaceRule,
     Places,
+    RoutineRule,
     Routines,
     Settings,
 )
@@ -60,7 +61,7 @@ PLAIN = Capabilities(
     places=Places(notation="krl"),
     settings=Settings(modal=True),
     io=Io(timers=16),
-    routines=Routines(text_results=False),
+    routines=Routines(rules=frozenset((RoutineRule.FUNCTIONS, RoutineRule.LOCAL, RoutineRule.RECURSION))),
     control=Control(
         switch_types=frozenset(("IntType", "CharType", "NamedType")), limits=frozenset((Limit.CONSTANT_CASES,))
     ),
@@ -79,7 +80,15 @@ RICH = Capabilities(
     io=Io(wait_timeout=True),
     errors=Errors(handlers=True),
     routines=Routines(
-        dynamic_calls=True,
+        rules=frozenset(
+            (
+                RoutineRule.COMPUTED_NAMES,
+                RoutineRule.FUNCTIONS,
+                RoutineRule.LOCAL,
+                RoutineRule.RECURSION,
+                RoutineRule.TEXT_RESULTS,
+            )
+        ),
         passing=frozenset((Passing.ARRAYS_BY_VALUE, Passing.OPTIONAL, Passing.REFERENCES, Passing.WRITTEN_LISTS)),
     ),
     control=Control(

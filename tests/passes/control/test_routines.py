@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.capabilities import Control, Io, Limit, Local, Parameters, Routines
+from rpl.passes.capabilities import Control, Io, Limit, Local, Parameters, RoutineRule, Routines
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.elseif import nest_branches
 from rpl.passes.legalise.control.functions import functions_to_procedures
@@ -32,7 +32,7 @@ WEAK = replace(
     PLAIN,
     routines=replace(
         PLAIN.routines,
-        functions=False,
+        rules=PLAIN.routines.rules - {RoutineRule.FUNCTIONS},
         parameters=Parameters.NUMBERED,
         locals=PLAIN.routines.locals - {Local.VARIABLES},
     ),
@@ -40,10 +40,13 @@ WEAK = replace(
 WEAKEST = replace(
     PLAIN,
     routines=replace(
-        PLAIN.routines, functions=False, parameters=Parameters.NONE, locals=PLAIN.routines.locals - {Local.VARIABLES}
+        PLAIN.routines,
+        rules=PLAIN.routines.rules - {RoutineRule.FUNCTIONS},
+        parameters=Parameters.NONE,
+        locals=PLAIN.routines.locals - {Local.VARIABLES},
     ),
 )
-NO_FUNCTIONS = replace(PLAIN, routines=replace(PLAIN.routines, functions=False))
+NO_FUNCTIONS = replace(PLAIN, routines=replace(PLAIN.routines, rules=PLAIN.routines.rules - {RoutineRule.FUNCTIONS}))
 NUMBERED = replace(PLAIN, routines=replace(PLAIN.routines, parameters=Parameters.NUMBERED))
 
 
@@ -153,7 +156,7 @@ def test_calls_keep_their_order_and_what_they_change(body: str, capabilities: ob
 
 def _checked(after: ir.Program, capabilities: object) -> None:
     routines = [routine for module in after.modules for routine in module.routines]
-    if not capabilities.routines.functions:  # type: ignore[attr-defined]
+    if RoutineRule.FUNCTIONS not in capabilities.routines.rules:  # type: ignore[attr-defined]
         assert not count(after, ir.Call) and not any(one.kind == "function" for one in routines)
     if capabilities.routines.parameters is Parameters.NONE:  # type: ignore[attr-defined]
         assert not any(one.parameters for one in routines)
@@ -201,7 +204,9 @@ def test_many_generated_calls(body: str) -> None:
 def _generated_calls_with_handlers(inner: str, caught: str, main: str) -> None:
     del caught
     with_loops = replace(
-        RICH, statements=RICH.statements | {"Loop", "ExitLoop"}, routines=replace(RICH.routines, functions=False)
+        RICH,
+        statements=RICH.statements | {"Loop", "ExitLoop"},
+        routines=replace(RICH.routines, rules=RICH.routines.rules - {RoutineRule.FUNCTIONS}),
     )
     same_run(read("rapid", _RAPID % (inner, "", main, "")), with_loops, functions_to_procedures)
 
@@ -240,7 +245,7 @@ def test_recursion_stays_where_the_target_has_variables() -> None:
 
 def test_recursion_that_cannot_be_is_reported_and_stopped() -> None:
     once = replace(
-        PLAIN, routines=replace(PLAIN.routines, recursion=False)
+        PLAIN, routines=replace(PLAIN.routines, rules=PLAIN.routines.rules - {RoutineRule.RECURSION})
     )  # parameters with names, but only one activation
     after, context = legalised(read("rapid", _RECURSIVE), once, *ROUTINES)
     assert [(item.code.name, item.origin.line) for item in context.diagnostics] == [("recursion-lost", 6)]
@@ -333,7 +338,9 @@ def test_a_wait_that_calls_a_function_is_a_loop_without_functions() -> None:
     given = program(ir.WaitUntil(ir.Call("ask", (ir.Argument(ir.IntLiteral(2)),))), step(1))
     after, _ = rewritten(
         given,
-        target(routines=Routines(functions=False)),
+        target(
+            routines=Routines(rules=frozenset((RoutineRule.LOCAL, RoutineRule.RECURSION, RoutineRule.TEXT_RESULTS)))
+        ),
         poll_waits,
         functions_to_procedures,
     )

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from rpl import ir
-from rpl.passes.capabilities import Capabilities, Control, Counting, Limit, Local, Parameters, Passing
+from rpl.passes.capabilities import Capabilities, Control, Counting, Limit, Local, Parameters, Passing, RoutineRule
 from rpl.passes.legalise import legalise
 from rpl.passes.legalise.control.loops import fit_loops
 
@@ -24,7 +24,10 @@ LABELS_ONLY = replace(
     PLAIN,
     statements=COMMON - BLOCKS | {"For"},
     routines=replace(
-        PLAIN.routines, functions=False, parameters=Parameters.NONE, locals=PLAIN.routines.locals - {Local.VARIABLES}
+        PLAIN.routines,
+        rules=PLAIN.routines.rules - {RoutineRule.FUNCTIONS},
+        parameters=Parameters.NONE,
+        locals=PLAIN.routines.locals - {Local.VARIABLES},
     ),
     control=replace(
         PLAIN.control,

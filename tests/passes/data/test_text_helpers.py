@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.source import Origin, source_from_text
 
@@ -17,7 +18,7 @@ BY_VALUE = replace(EVERYTHING, functions=EVERYTHING.functions - LACKED | {"text_
 BY_STATEMENT = replace(
     EVERYTHING,
     functions=EVERYTHING.functions - LACKED | {"format"},
-    routines=replace(EVERYTHING.routines, text_results=False),
+    routines=replace(EVERYTHING.routines, rules=EVERYTHING.routines.rules - {RoutineRule.TEXT_RESULTS}),
 )
 PROGRAM = """.PROGRAM main()
         AUTO $s

@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything, statements_in
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered, written_arguments
@@ -27,7 +28,7 @@ CALL_LEFT = code(
 )
 
 
-@legalising(unless=lambda context: context.capabilities.routines.functions)
+@legalising(unless=lambda context: RoutineRule.FUNCTIONS in context.capabilities.routines.rules)
 def functions_to_procedures(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without user functions."""
     results: dict[int, str] = {}

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.passes.capabilities import Local, Parameters
+from rpl.passes.capabilities import Local, Parameters, RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.activations import Activations, called
 from rpl.passes.legalise.rewriting.beside import tidy
@@ -38,7 +38,7 @@ SHARED = code(
 @legalising(
     unless=lambda context: (
         Local.VARIABLES in context.capabilities.routines.locals
-        and context.capabilities.routines.recursion
+        and RoutineRule.RECURSION in context.capabilities.routines.rules
         and (context.capabilities.routines.parameters is Parameters.NAMES)
     )
 )
@@ -51,7 +51,7 @@ def variables_of_routines(program: ir.Program, context: Context) -> ir.Program:
         shares = (Local.VARIABLES not in can.routines.locals and _variables(routine)) or (
             can.routines.parameters is Parameters.NONE and bool(routine.parameters)
         )
-        if key in facts.recursive and (shares or not can.routines.recursion):
+        if key in facts.recursive and (shares or RoutineRule.RECURSION not in can.routines.rules):
             again.add(key)
         elif key in facts.beside and shares:
             context.diagnostics.report(SHARED, routine.origin, name=routine.name)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
-from rpl.passes.capabilities import Local, Parameters
+from rpl.passes.capabilities import Local, Parameters, RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.lists import sized
 from rpl.passes.legalise.facts.activations import Activations
@@ -58,7 +58,10 @@ def fit_arguments(program: ir.Program, context: Context) -> ir.Program:
     }
     if not plans:
         return program
-    if not context.capabilities.routines.recursion or Local.VARIABLES not in context.capabilities.routines.locals:
+    if (
+        RoutineRule.RECURSION not in context.capabilities.routines.rules
+        or Local.VARIABLES not in context.capabilities.routines.locals
+    ):
         for key in Activations.of(program).recursive & plans.keys():
             plans[key].again = True
     done = edit_routines(program, context, lambda editor, routine: _Calls(editor, plans).routine(routine, plans))

@@ -14,6 +14,7 @@ from functools import lru_cache
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.legalise.context import Context, names_in
 from rpl.passes.legalise.rewriting import scanning, textparts
 from rpl.passes.legalise.rewriting.support import with_support
@@ -412,7 +413,7 @@ class Helpers:
         if not self.names:
             return program
         text = "\n".join(self.texts[helper] for helper in self.names)
-        if self.context.capabilities.routines.text_results:
+        if RoutineRule.TEXT_RESULTS in self.context.capabilities.routines.rules:
             text = _TEXT_REFERENCE.sub("", text)  # texts are values there
         text = _NAME.sub(lambda match: self.names.get(match[0], match[0]), text)
         read = _read(text)

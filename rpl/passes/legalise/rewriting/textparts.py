@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from rpl.passes.capabilities import Capabilities, TextRule
+from rpl.passes.capabilities import Capabilities, RoutineRule, TextRule
 
 # Functions of the IR -> helper.
 FUNCTIONS: Final = {
@@ -30,7 +30,7 @@ def by_parts(capabilities: Capabilities) -> bool:
     """Does the target have texts as values with these few operations, in numbered storage or by its own word?"""
     has = {"text_part", "text_length"} <= capabilities.functions and "&" in capabilities.operators
     stored = bool(capabilities.storage.banks) or TextRule.PARTS in capabilities.texts.rules
-    return has and stored and capabilities.routines.text_results
+    return has and stored and RoutineRule.TEXT_RESULTS in capabilities.routines.rules
 
 
 _LOWER, _UPPER = "abcdefghijklmnopqrstuvwxyz", "ABCDEFGHIJKLMNOPQRSTUVWXYZ"

@@ -14,7 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import spelled_among
 from rpl.ir.walk import bodies, walk
-from rpl.passes.capabilities import NameRules, Parameters, Passing
+from rpl.passes.capabilities import NameRules, Parameters, Passing, RoutineRule
 from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything, statements_in
@@ -60,7 +60,7 @@ def fit_parameters(program: ir.Program, context: Context) -> ir.Program:
     """The program with parameters, arguments and calls by name as the target has them."""
     can = context.capabilities
     if (
-        not can.routines.dynamic_calls
+        RoutineRule.COMPUTED_NAMES not in can.routines.rules
         or can.routines.parameters is not Parameters.NAMES
         or not names_stay(program, can.names)
     ):
@@ -373,7 +373,9 @@ class _Dynamic:
     def __init__(self, editor: Editor) -> None:
         self.editor = editor
         can = editor.capabilities
-        self.itself = can.routines.dynamic_calls and names_stay(editor.scope.program.program, can.names)
+        self.itself = RoutineRule.COMPUTED_NAMES in can.routines.rules and names_stay(
+            editor.scope.program.program, can.names
+        )
         self.held: HeldTexts | None = None
         self.before: ir.Body = ()  # of the statement that is looked at, in its block
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered, Rule
@@ -19,7 +20,7 @@ def list_results(program: ir.Program, context: Context) -> ir.Program:
     """The program with no function that gives a list of known size, where the target has none."""
     return (
         program
-        if context.capabilities.routines.list_results
+        if RoutineRule.LIST_RESULTS in context.capabilities.routines.rules
         else _as_parameters(program, context, ir.ArrayType, "list")
     )
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold, rules_of
@@ -54,7 +55,7 @@ def own_names(program: ir.Program, context: Context, shared: Callable[[ir.Declar
     return replace(program, modules=tuple(modules[id(one)] for one in program.modules), tasks=renamed)
 
 
-@legalising(unless=lambda context: context.capabilities.routines.local_routines)
+@legalising(unless=lambda context: RoutineRule.LOCAL in context.capabilities.routines.rules)
 def names_of_local_routines(program: ir.Program, context: Context) -> ir.Program:
     """For targets whose routines are all global: a routine that only its module sees gets a name of its own where
     another module has one of that name, too (`init` of two modules)."""

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from rpl import ir
-from rpl.passes.capabilities import TextRule
+from rpl.passes.capabilities import RoutineRule, TextRule
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, is_constant
@@ -50,7 +50,7 @@ _HELPER_FUNCTIONS = {
 def rewrite_calls(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the functions, procedures, operators and conversions of the target."""
     helpers = Helpers(context)
-    if not context.capabilities.routines.text_results:
+    if RoutineRule.TEXT_RESULTS not in context.capabilities.routines.rules:
         program = text_results(program, context)
     effects = Effects(program)
     scopes = ProgramScope(program)
@@ -292,7 +292,11 @@ class _Calls(TextHoister):
                     return ir.Binary(op, one, other)
                 case ir.Convert(how=how, operand=bit), _ if how in _BIT_WEIGHTS and value is not None:
                     return _bit_test(op, bit, value, _BIT_WEIGHTS[how])
-        if e.op not in ("=", "<>") or self.capabilities.routines.text_results or not self.can("text_equal"):
+        if (
+            e.op not in ("=", "<>")
+            or RoutineRule.TEXT_RESULTS in self.capabilities.routines.rules
+            or not self.can("text_equal")
+        ):
             return None
         if not all(isinstance(self.editor.type_of(side), ir.StringType) for side in (e.left, e.right)):
             return None
@@ -475,7 +479,7 @@ def _size(calls: _Calls, given: Arguments) -> ir.Expression | None:
 def _equal(calls: _Calls, given: Arguments) -> ir.Expression | None:
     """Texts compare by the operator; without regard to case both in upper case."""
     ignore = given[2] if len(given) > 2 else ir.BoolLiteral(False)
-    if not isinstance(ignore, ir.BoolLiteral) or not calls.capabilities.routines.text_results:
+    if not isinstance(ignore, ir.BoolLiteral) or RoutineRule.TEXT_RESULTS not in calls.capabilities.routines.rules:
         return None
     left, right = given[0], given[1]
     if not ignore.value:
@@ -500,7 +504,10 @@ def _fraction(calls: _Calls, given: Arguments) -> ir.Expression | None:
 
 def _code(calls: _Calls, given: Arguments) -> ir.Expression | None:
     """The code of a text's first character, where the target tells that of a text of one character."""
-    if "code" not in calls.capabilities.conversions or not calls.capabilities.routines.text_results:
+    if (
+        "code" not in calls.capabilities.conversions
+        or RoutineRule.TEXT_RESULTS not in calls.capabilities.routines.rules
+    ):
         return None
     match given[0]:
         case ir.TextLiteral(value=text) if text:
@@ -512,7 +519,10 @@ def _code(calls: _Calls, given: Arguments) -> ir.Expression | None:
 
 
 def _from_code(calls: _Calls, given: Arguments) -> ir.Expression | None:
-    if "char" not in calls.capabilities.conversions or not calls.capabilities.routines.text_results:
+    if (
+        "char" not in calls.capabilities.conversions
+        or RoutineRule.TEXT_RESULTS not in calls.capabilities.routines.rules
+    ):
         return None
     return calls.text_function(ir.Builtin("from_code", given)) or ir.Convert("char", given[0])
 

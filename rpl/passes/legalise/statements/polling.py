@@ -7,6 +7,7 @@ where functions become procedures.
 from __future__ import annotations
 
 from rpl import ir
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import everything, is_constant
@@ -41,7 +42,9 @@ def _needed(statement: ir.WaitUntil, context: Context) -> bool:
     timers = "timer" in can.system_variables and can.io.timers
     if statement.timeout is not None and not can.io.wait_timeout and not timers:
         return True
-    return not can.routines.functions and any(isinstance(one, ir.Call) for one in everything(statement.condition))
+    return RoutineRule.FUNCTIONS not in can.routines.rules and any(
+        isinstance(one, ir.Call) for one in everything(statement.condition)
+    )
 
 
 def polled(statement: ir.WaitUntil, editor: Editor, facts: Raising | None = None) -> ir.Body:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
-from rpl.passes.capabilities import TextRule
+from rpl.passes.capabilities import RoutineRule, TextRule
 from rpl.passes.legalise.facts.effects import everything
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting import textparts
@@ -239,7 +239,7 @@ class TextHoister(Hoister):
             before, values = self.variables(expression.arguments)
             return before, self.helpers.call(_READERS[expression.function], *values)
         helper = _WRITERS.get(expression.function)
-        if helper is None or self.editor.capabilities.routines.text_results:
+        if helper is None or RoutineRule.TEXT_RESULTS in self.editor.capabilities.routines.rules:
             return None
         before, values = self.variables(expression.arguments)
         text = self.editor.temporary("text", ir.StringType())
@@ -302,7 +302,10 @@ class TextHoister(Hoister):
         done: list[ir.Expression] = []
         for value in values:
             held = isinstance(value, _PLACES) or not isinstance(self.editor.type_of(value), ir.StringType)
-            if held or (self.editor.capabilities.routines.text_results and not isinstance(value, ir.TextLiteral)):
+            if held or (
+                RoutineRule.TEXT_RESULTS in self.editor.capabilities.routines.rules
+                and not isinstance(value, ir.TextLiteral)
+            ):
                 done.append(value)
                 continue
             kept = self.editor.temporary("text", ir.StringType())

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -90,7 +91,7 @@ END FUNCTION
 @legalising(
     unless=lambda context: (
         context.capabilities.carries_rules
-        or not context.capabilities.routines.text_results
+        or RoutineRule.TEXT_RESULTS not in context.capabilities.routines.rules
         or "format_into" in context.capabilities.procedures
     ),
     sees=("function format", "procedure format_into"),
