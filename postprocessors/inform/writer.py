@@ -228,17 +228,13 @@ class _Writer:
 
     def lost_parts(self, routine: ir.Routine) -> None:
         """What a job has no place for. The passes before carry over what they can."""
-        lost = [statement for handler in routine.handlers for statement in handler.body]
-        lost.extend((*routine.undo, *routine.backward))
         reasons = [
-            *(["an error handler"] if lost or routine.handlers else []),
+            *(["an error handler"] if self.ledger.handlers_reported(routine) else []),
             *(["a result"] if routine.returns is not None else []),
             *(["parameters"] if routine.parameters else []),
         ]
         for reason in reasons:
             self.diagnostics.report(LOST_ROUTINE, routine.origin, name=routine.name, reason=reason)
-        for statement in lost:
-            self.ledger.reported(statement)
 
     # ---- the whole
 

@@ -206,12 +206,8 @@ class _Module:
 
     def handlers(self, routine: ir.Routine) -> None:
         """What a KRL routine has no place for. The passes before carry over what they can."""
-        lost = [statement for handler in routine.handlers for statement in handler.body]
-        lost.extend((*routine.undo, *routine.backward))
-        if routine.handlers or lost:
+        if self.ledger.handlers_reported(routine):
             self.diagnostics.report(LOST_HANDLER, routine.origin, name=routine.name)
-        for statement in lost:
-            self.ledger.reported(statement)
 
 
 def _file(path: str, text: str) -> OutputFile:

@@ -259,12 +259,8 @@ class _File:
 
     def handlers(self, routine: ir.Routine) -> None:
         """What a program has no place for. The passes before carry over what they can."""
-        lost = [statement for handler in routine.handlers for statement in handler.body]
-        lost.extend((*routine.undo, *routine.backward))
-        if routine.handlers or lost:
+        if self.ledger.handlers_reported(routine):
             self.diagnostics.report(LOST_HANDLER, routine.origin, name=routine.name)
-        for statement in lost:
-            self.ledger.reported(statement)
 
 
 def _never_set(variable: ir.Variable, assigned: set[str]) -> list[tuple[ir.Expression, ir.Type, ir.Expression]]:

@@ -95,6 +95,15 @@ class EmissionLedger:
         for part in inside(node):
             self._mark(part, "reported")
 
+    def handlers_reported(self, routine: ir.Routine) -> bool:
+        """Mark what handles errors, undoes and steps back, for a target whose routines have no place for it, which its
+        writer reports; is there any?"""
+        lost = [statement for handler in routine.handlers for statement in handler.body]
+        lost.extend((*routine.undo, *routine.backward))
+        for statement in lost:
+            self.reported(statement)
+        return bool(routine.handlers or lost)
+
     def _mark(self, node: Node, way: str) -> None:
         self._marks[id(node)] += 1
         self._kept.append(node)
