@@ -1,4 +1,4 @@
-"""A place that the other arm does not reach costs the moves to it; the rest is written, and a shift that helps is told."""
+"""A place that the other arm does not reach costs the moves to it, all else is written; a shift that helps is told."""
 
 from __future__ import annotations
 
