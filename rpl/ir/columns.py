@@ -60,12 +60,12 @@ class Stretch:
 
 
 class Choice:
-    """A number that is written in two ways: in some rows as one literal, in the others as the other one."""
+    """What is one of a few expressions in each row. answers: which of the options."""
 
-    __slots__ = ("answers", "no", "yes")
+    __slots__ = ("answers", "options")
 
-    def __init__(self, answers: NDArray[np.bool_], yes: Expression, no: Expression) -> None:
-        self.answers, self.yes, self.no = answers, yes, no
+    def __init__(self, answers: NDArray[np.int64], options: tuple[Expression, ...]) -> None:
+        self.answers, self.options = answers, options
 
 
 class LooksInsideError(Exception):
@@ -245,7 +245,46 @@ def column_of(value: object) -> ColumnNumber | None:
 def as_float(value: float) -> float:
     """float(value), of a column number too."""
     column = column_of(value)
-    return float(value) if column is None else _number(column.stretch, column.values, shifted=column.shifted)
+    if column is None:
+        return float(value)
+    if column.kind is Choice:
+        raise LooksInsideError(column.stretch)
+    return _number(column.stretch, column.values, shifted=column.shifted)
+
+
+def as_whole(value: float) -> int:
+    """int(value), of a column of whole numbers too."""
+    column = column_of(value)
+    return int(value) if column is None or column.kind is not int else cast(int, value)
+
+
+def alike(value: float) -> float | None:
+    """The number that all rows have; None where they have several."""
+    column = column_of(value)
+    if column is None:
+        return value
+    first = column.values[0]
+    if (column.values != first).any() or (first == 0.0 and column._signs_differ()):
+        return None
+    return float(first) if column.kind is float else int(first)
+
+
+def whole_column(stretch: Stretch, values: NDArray[np.int64]) -> int:
+    """The whole numbers of the rows; a plain one where all have the same."""
+    if (values == values[0]).all():
+        return int(values[0])
+    return cast(int, _number(stretch, values.astype("float64"), int))
+
+
+def real_column(stretch: Stretch, values: NDArray[np.float64]) -> float:
+    """The numbers of the rows."""
+    return _number(stretch, values)
+
+
+def in_each_row(value: float) -> NDArray[np.float64] | float:
+    """The numbers of the rows, or the one number."""
+    column = column_of(value)
+    return value if column is None else column.values
 
 
 def in_row(value: float, at: int) -> float:
@@ -280,12 +319,22 @@ def chosen(answer: float, yes: Expression, no: Expression) -> Expression:
     if answers.all() or not answers.any():
         return yes if answers[0] else no
     one, other = (_values(each, column.stretch) for each in (yes, no))
-    column.stretch.choices.append(Choice(answers, yes, no))
     import numpy as np
 
+    column.stretch.choices.append(Choice(np.where(answers, 0, 1), (yes, no)))
     shifted = _shifted((answer, *(each.value for each in (yes, no) if isinstance(each, IntLiteral | RealLiteral))))
     number = _number(column.stretch, np.where(answers, one, other), shifted=shifted)
     return RealLiteral(number, f"{CHOSEN}{len(column.stretch.choices) - 1}")
+
+
+def selected(stretch: Stretch, answers: NDArray[np.int64], options: tuple[Expression, ...]) -> Expression:
+    """One of the options, which are the same in all rows where they are: in each row the one of that number. The
+    literal that stands for it says of itself that it is no number."""
+    if (answers == answers[0]).all():
+        return options[int(answers[0])]
+    stretch.choices.append(Choice(answers, options))
+    number = _number(stretch, answers.astype("float64"), Choice)
+    return RealLiteral(number, f"{CHOSEN}{len(stretch.choices) - 1}")
 
 
 def _values(expression: Expression, stretch: Stretch) -> float | NDArray[np.float64]:

@@ -32,11 +32,14 @@ class Cell:
         if self.column >= 0:
             return literal(self.stretch.spellings[at][self.column], origin if self.placed else NOWHERE)
         if self.choice is not None:
-            one = self.choice.yes if self.choice.answers[self.stretch.row(at)] else self.choice.no
-            assert isinstance(one, IntLiteral | RealLiteral)  # no others are chosen from
-            return one if column_of(one.value) is None else Cell(self.stretch, one, self.signed).number(at, origin)
+            one = self.choice.options[self.choice.answers[self.stretch.row(at)]]
+            if not isinstance(one, IntLiteral | RealLiteral) or column_of(one.value) is None:
+                return one
+            return Cell(self.stretch, one, self.signed).number(at, origin)
         assert self.values is not None  # only literals with columns are cells
         value = float(self.values[self.stretch.row(at)])
+        if isinstance(self.literal, IntLiteral):
+            return IntLiteral(int(value))
         if self.signed and value < 0.0:
             return Unary("-", RealLiteral(-value))
         return RealLiteral(value)
@@ -46,7 +49,11 @@ class Cell:
         if self.column >= 0:
             written = [self.stretch.spellings[at][self.column] for at in moves]
             return [f"-{_text(one[1:], number)}" if one[0] == "-" else _text(one, number) for one in written]
-        if self.choice is None and self.values is not None and not self.signed:
+        if (
+            self.choice is None
+            and self.values is not None
+            and not (self.signed or isinstance(self.literal, IntLiteral))
+        ):
             return [number(value, "") for value in self.values[list(map(self.stretch.row, moves))].tolist()]
         return [_of_expression(self.number(at, NOWHERE), number) for at in moves]
 
@@ -112,13 +119,13 @@ class Rows:
     def groups(self, moves: Sequence[int]) -> Iterator[tuple[Rows, list[int]]]:
         """The moves by what is chosen in them, each group with rows in which nothing is left to choose."""
         choices = {key: cell.choice for key, cell in self.cells.by_identity.items() if cell.choice is not None}
-        found: dict[tuple[bool, ...], list[int]] = {}
+        found: dict[tuple[int, ...], list[int]] = {}
         for at in moves:
             row = self.cells.stretch.row(at)
-            found.setdefault(tuple(bool(choice.answers[row]) for choice in choices.values()), []).append(at)
+            found.setdefault(tuple(int(choice.answers[row]) for choice in choices.values()), []).append(at)
         for answers, some in found.items():
             makes: dict[int, Make[int]] = {
-                key: always(choice.yes if answer else choice.no)
+                key: always(choice.options[answer])
                 for (key, choice), answer in zip(choices.items(), answers, strict=True)
             }
             make = maker_of(self.sample, makes, self.sample.origin)

@@ -9,11 +9,13 @@ the predefined value next to it.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.columns import column_of
+from rpl.ir.columns import ColumnNumber, Stretch, column_of, in_each_row, selected
+from rpl.ir.rows import Cell
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.headdata import with_data
@@ -34,6 +36,8 @@ _ESTIMATED = 0.25  # how far an estimate may be from the predefined value: half 
 _TURN, _ANY_TURN_DEG = 4, 180.0  # where a zone says how far from its corner the tool may turn, and all there is
 _FULL = ir.Name("vmax")
 _FULL_MM_S = 5000.0  # what 100 % of the axes' speed is written as, where a tool speed has to stand for it
+_USUAL_TURN = dict(ZONE_PROPORTIONS)["rotation"] * (1.0 + 1e-9)  # deg a mm of the zone
+_MOST_NAMES = 16  # of one speed or zone in a run, more of them are no few words that return
 _Values = tuple[float, ...]
 _Key = tuple[str, bool, _Values]  # v or z, is it an estimate, its numbers
 
@@ -42,6 +46,9 @@ _Key = tuple[str, bool, _Values]  # v or z, is it an estimate, its numbers
 def named_motion_data(program: ir.Program, context: Context) -> ir.Program:
     """The program with no speed or zone of numbers at a move."""
     worker = _Named(context)
+    if context.stretches:  # once more when all names are known, those of the rows beside a stretch too
+        edit_all(program, worker.body)
+        worker.complete = True
     done = edit_all(program, worker.body)
     return with_data(done, worker.added) if worker.added else done
 
@@ -51,6 +58,7 @@ class _Named:
     context: Context
     names: dict[_Key, ir.Expression] = field(default_factory=dict)
     added: list[ir.Variable] = field(default_factory=list)
+    complete: bool = False
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -68,19 +76,52 @@ class _Named:
 
     def named(self, data: ir.Aggregate, move: ir.Move | ir.MoveExternal) -> ir.Expression:
         """The name of the data, or the value of a predefined one."""
-        data = _with_any_turn(data) if data.type_name == "zone" else data
-        numbers = [number_of(value) for _, value in data.entries]
-        values = tuple(number for number in numbers if number is not None and column_of(number) is None)
-        if len(values) < len(numbers):
+        numbers = [one for _, one in data.entries if isinstance(one, ir.IntLiteral | ir.RealLiteral)]
+        columns = [column for column in (column_of(one.value) for one in numbers) if column is not None]
+        if columns:
+            return self.by_rows(data, move, columns)
+        data = _with_any_turn(data)
+        key = _key(data, move)
+        if key is None:
             return data
-        is_speed = data.type_name == "speed"
-        if is_speed and isinstance(move, ir.Move) and move.kind == "joint" and values[0] >= _FULL_MM_S:
+        letter, _, values = key
+        if letter == "v" and isinstance(move, ir.Move) and move.kind == "joint" and values[0] >= _FULL_MM_S:
             return _FULL
-        letter = "v" if is_speed else "z"
-        key = (letter, _is_estimate(move, letter, values[0] if is_speed else values[1]), values)
         if key not in self.names:
             self.names[key] = self.near(key, data, move) or self.own(key, data)
         return self.names[key]
+
+    def by_rows(
+        self, data: ir.Aggregate, move: ir.Move | ir.MoveExternal, columns: list[ColumnNumber]
+    ) -> ir.Expression:
+        """The names in a stretch of a run, in the order in which its moves ask for them."""
+        import numpy as np
+
+        stretch, numbers = columns[0].stretch, [column.values for column in columns]
+        if data.type_name == "zone":
+            size, turn = _size(data.entries[1][1], math.inf), _size(data.entries[_TURN][1], 0.0)
+            turned = np.broadcast_to(in_each_row(turn) > in_each_row(size) * _USUAL_TURN, len(stretch.rows))
+            numbers = [
+                np.where(turned, _ANY_TURN_DEG, values) if column is column_of(turn) else values
+                for column, values in zip(columns, numbers, strict=True)
+            ]
+            numbers.append(turned.astype("float64"))
+        _, first, which = np.unique(np.array(numbers), axis=1, return_index=True, return_inverse=True)
+        if len(first) > _MOST_NAMES:
+            return data
+        begin = stretch.row(stretch.first)
+        inside = which[begin : begin + stretch.end - stretch.first]
+        found, where = np.unique(inside, return_index=True)
+        names = {
+            kind: self.named(_alone(data, stretch, stretch.first + at), move)
+            for at, kind in sorted(zip(where.tolist(), found.tolist(), strict=True))
+        }
+        for kind, row in enumerate(first.tolist()):
+            if kind not in names:
+                alone = _alone(data, stretch, int(stretch.rows[row]))
+                known = self.complete and _key(_with_any_turn(alone), move) in self.names
+                names[kind] = self.named(alone, move) if known else data
+        return selected(stretch, which, tuple(names[kind] for kind in range(len(first))))
 
     def near(self, key: _Key, data: ir.Aggregate, move: ir.Statement) -> ir.Expression | None:
         """The values of the predefined speed or zone that is near enough in all of them."""
@@ -133,20 +174,41 @@ def _is_near(known: _Values, wanted: _Values, letter: str, within: float) -> boo
     return all(abs(one - other) <= within * one for one, other in zip(known, wanted, strict=True))
 
 
-def _with_any_turn(zone: ir.Aggregate) -> ir.Aggregate:
+def _key(data: ir.Aggregate, move: ir.Statement) -> _Key | None:
+    """None where not all of its values are numbers."""
+    values = tuple(number for number in (number_of(value) for _, value in data.entries) if number is not None)
+    if len(values) < len(data.entries):
+        return None
+    letter, at = ("v", 0) if data.type_name == "speed" else ("z", 1)
+    return letter, _is_estimate(move, letter, values[at]), values
+
+
+def _alone(data: ir.Aggregate, stretch: Stretch, at: int) -> ir.Aggregate:
+    """The data in one move of the run."""
+
+    def number(part: ir.Expression) -> ir.Expression:
+        if not isinstance(part, ir.IntLiteral | ir.RealLiteral) or column_of(part.value) is None:
+            return part
+        return Cell(stretch, part, False).number(at, stretch.run.columns.origin(at))
+
+    return replace(data, entries=tuple((name, number(part)) for name, part in data.entries))
+
+
+def _with_any_turn(data: ir.Aggregate) -> ir.Aggregate:
     """A zone that lets the tool turn more than its size does, so that the turn does not make it smaller: one for all
     moves, whose turns are limited by the size on the path then."""
-    size, turn = zone.entries[1][1], zone.entries[_TURN][1]
-    if not isinstance(size, ir.RealLiteral | ir.IntLiteral) or not isinstance(turn, ir.RealLiteral | ir.IntLiteral):
-        return zone
-    usual = dict(ZONE_PROPORTIONS)["rotation"]
-    if column_of(size.value) is not None:
-        return zone
-    if column_of(turn.value) is None and turn.value <= size.value * usual * (1.0 + 1e-9):
-        return zone
-    entries = list(zone.entries)
+    if data.type_name != "zone":
+        return data
+    if _size(data.entries[_TURN][1], 0.0) <= _size(data.entries[1][1], math.inf) * _USUAL_TURN:
+        return data
+    entries = list(data.entries)
     entries[_TURN] = (entries[_TURN][0], ir.RealLiteral(_ANY_TURN_DEG))
-    return replace(zone, entries=tuple(entries))
+    return replace(data, entries=tuple(entries))
+
+
+def _size(part: ir.Expression, otherwise: float) -> float:
+    """A number of a zone, where it is one."""
+    return part.value if isinstance(part, ir.IntLiteral | ir.RealLiteral) else otherwise
 
 
 def _is_usual(zone: _Values) -> bool:
