@@ -242,6 +242,11 @@ def column_of(value: object) -> ColumnNumber | None:
     return value if type(value) is ColumnNumber else None
 
 
+def stretch_of(values: Iterable[object]) -> Stretch | None:
+    """The stretch whose rows these numbers are of; None for numbers alone."""
+    return next((one.stretch for one in map(column_of, values) if one is not None), None)
+
+
 def as_float(value: float) -> float:
     """float(value), of a column number too."""
     column = column_of(value)
@@ -258,27 +263,11 @@ def as_whole(value: float) -> int:
     return int(value) if column is None or column.kind is not int else cast(int, value)
 
 
-def alike(value: float) -> float | None:
-    """The number that all rows have; None where they have several."""
-    column = column_of(value)
-    if column is None:
-        return value
-    first = column.values[0]
-    if (column.values != first).any() or (first == 0.0 and column._signs_differ()):
-        return None
-    return float(first) if column.kind is float else int(first)
-
-
 def whole_column(stretch: Stretch, values: NDArray[np.int64]) -> int:
     """The whole numbers of the rows; a plain one where all have the same."""
     if (values == values[0]).all():
         return int(values[0])
     return cast(int, _number(stretch, values.astype("float64"), int))
-
-
-def real_column(stretch: Stretch, values: NDArray[np.float64]) -> float:
-    """The numbers of the rows."""
-    return _number(stretch, values)
 
 
 def in_each_row(value: float) -> NDArray[np.float64] | float:
@@ -350,7 +339,7 @@ def by_row(function: Callable[[*_T], _R]) -> Callable[[*_T], _R]:
 
     @wraps(function)
     def lifted(*arguments: *_T) -> _R:
-        stretch = next((one.stretch for one in map(column_of, _flat(arguments)) if one is not None), None)
+        stretch = stretch_of(_flat(arguments))
         if stretch is None:
             return function(*arguments)
         rows = zip(*(_rows(one, stretch) for one in arguments), strict=True)

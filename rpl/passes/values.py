@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from rpl import ir, registry
-from rpl.ir.columns import as_float, by_row
+from rpl.ir.columns import as_float, as_whole, by_row
 from rpl.passes import rigid
 from rpl.passes.numeric import NUMERIC, round_half_away
 from rpl.passes.typewords import type_word
@@ -82,7 +82,7 @@ def composed(type: ir.Type, parts: dict[str, Value]) -> Value | None:
             return Target(
                 type,
                 pose,
-                tuple((name, int(v)) for name, v in flags.items() if isinstance(v, int | float)),
+                tuple((name, as_whole(v)) for name, v in flags.items() if isinstance(v, int | float)),
                 tuple((name, as_float(v)) for name, v in external.items() if isinstance(v, int | float)),
             )
     return Record(type, tuple(parts.items()))

@@ -36,7 +36,7 @@ _MOST_COLUMNS = 30  # two bits of a whole number for each
 _NUMBER = re.compile(r"(?<![\w.$])(?:[0-9]{1,12}\.[0-9]{0,12}|\.[0-9]{1,12}|[0-9]{1,12})(?![\w.])")
 _ENDED = re.compile(r"[ \t]*\r?\n")
 # Behind these a sign in front of a number does not stand between two numbers.
-_OPEN = re.compile(r"[\[({,][ \t]*\Z|[A-Za-z][ \t]+\Z")
+_OPEN = re.compile(r"[\[({,][ \t]*\Z|[A-Za-z_]\w*[ \t]+\Z")
 
 
 @dataclass(slots=True)

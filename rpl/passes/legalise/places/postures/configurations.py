@@ -7,11 +7,13 @@ and joint targets travel through their pose. What cannot be known is reported, a
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.ir.columns import Stretch, as_float
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.fold import constant, real
@@ -20,6 +22,12 @@ from rpl.passes.legalise.facts.flow import Use, Uses
 from rpl.passes.legalise.places.postures.families import changed_posture, differing
 from rpl.passes.legalise.places.postures.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.places.postures.impliedflags import Known, implied_flags
+from rpl.passes.legalise.places.postures.rowpostures import (
+    degrees_in_rows,
+    flags_in_rows,
+    joints_in_rows,
+    stretch_of_matrix,
+)
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -171,7 +179,7 @@ class _Configurations(Rewriter):
         same = all(one == first for one in found)
         if not same or not isinstance(first, dict) or set(first) != set(_AXES) or not isinstance(last, ir.Move):
             return done
-        joints = ir.Aggregate(tuple((name, real(float(value))) for name, value in first.items()), type_name="joints")
+        joints = ir.Aggregate(tuple((name, real(as_float(value))) for name, value in first.items()), type_name="joints")
         return [*done[:-1], replace(last, target=ir.Builtin("target_to_joints_near", (last.target, joints)))]
 
     def unchecked(self, done: list[ir.Statement]) -> list[ir.Statement]:
@@ -415,6 +423,8 @@ class _Configurations(Rewriter):
         uses = self.uses.found.get(id(expression), set())
         if not uses:
             return _Refused("no move uses it")
+        if not (had or self.other_arm):
+            return _Refused("it has none")
         self.unturned, self.changed = "", None
         flags: dict[str, int] | None = None
         refused: _Refused | None = None
@@ -447,11 +457,13 @@ class _Configurations(Rewriter):
             which = "tool" if use.frames.tool is None else "frame"
             reason = f"the {which} of its moves is not constant"
             return (self.implied(target, reason) if had and use.moved is None else None) or _Refused(reason)
-        matrix = array(flange.matrix)
         notation = _notation(target.type.notation)
         if notation is None:
             return _Refused("the source language writes no configuration")
         flags = {name: value for name, value in target.flags if name in notation.fields}
+        if had and not self.other_arm and (stretch := stretch_of_matrix(flange.matrix)) is not None:
+            return self.in_rows(stretch, joints_in_rows(stretch, notation, self.arm, flange.matrix, flags, use.joint))
+        matrix = array(flange.matrix)
         selection = notation.select(_any(self.arm), matrix, flags, None if had else self.arm.home)
         joints = selection.joints
         if joints is None and not use.joint:
@@ -469,6 +481,13 @@ class _Configurations(Rewriter):
             return {name: round(round(float(value), 6)) for name, value in zip(_AXES, joints, strict=False)}
         wanted = _notation(self.target_notation)
         return wanted.encode(_any(self.to_arm), joints) if wanted is not None else {}
+
+    def in_rows(self, stretch: Stretch, joints: Iterator[Any]) -> dict[str, int]:
+        """As the end of `for_use`, for the joints of all rows of a stretch."""
+        if self.near:
+            return degrees_in_rows(stretch, _AXES, joints)
+        wanted = _notation(self.target_notation)
+        return flags_in_rows(stretch, wanted, self.to_arm, joints) if wanted is not None else {}
 
     def implied(self, target: Target, reason: str) -> dict[str, int]:
         """What the source's flags say wherever the place is; empty where the target's hang on it altogether."""
