@@ -21,6 +21,7 @@ from rpl.passes.legalise.context import Arm, Context, array, rules_of
 from rpl.passes.legalise.facts.flow import Use, Uses
 from rpl.passes.legalise.places.postures.families import changed_posture, differing
 from rpl.passes.legalise.places.postures.flagwrites import FlagFlow, FlagValues, only_turns
+from rpl.passes.legalise.places.postures.givenjoints import joint_values, with_joints
 from rpl.passes.legalise.places.postures.impliedflags import Known, implied_flags
 from rpl.passes.legalise.places.postures.rowpostures import (
     degrees_in_rows,
@@ -33,7 +34,7 @@ from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.typewords import component_names, type_word
-from rpl.passes.values import Record, Target, component, moved
+from rpl.passes.values import Record, Target, moved
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
@@ -535,7 +536,7 @@ class _Configurations(Rewriter):
     def joints(self, expression: ir.Aggregate) -> ir.Expression:
         assert self.arm is not None and self.to_arm is not None  # only with two arms
         value = constant(expression, self.scope, None)
-        given = _joint_values(value) if isinstance(value, Record) else None
+        given = joint_values(value) if isinstance(value, Record) else None
         if given is None or len(given) != self.arm.axes or self.to_arm.axes > len(_AXES):
             self.context.diagnostics.report(JOINTS_LOST, self.at(expression), arm=self.to_arm.name)
             return super().expression(expression)
@@ -548,7 +549,7 @@ class _Configurations(Rewriter):
             self.context.not_reached(self.at(expression), "joint position", self.why_not(flange))
             return super().expression(expression)
         new = {name: real(float(value)) for name, value in zip(_AXES, found, strict=False)}
-        return _with_joints(expression, new, self.named(expression, ir.JointsType()))
+        return with_joints(expression, new, self.named(expression, ir.JointsType()))
 
 
 def _may_be_point(expression: ir.Aggregate) -> bool:
@@ -558,26 +559,6 @@ def _may_be_point(expression: ir.Aggregate) -> bool:
 
 def _check(name: str, value: bool) -> ir.Assign:
     return ir.Assign(ir.System(name), ir.BoolLiteral(value))
-
-
-def _with_joints(
-    expression: ir.Aggregate, new: dict[str, ir.Expression], given: dict[str, ir.Expression]
-) -> ir.Aggregate:
-    """The aggregate, nested or not, with new joint values."""
-    if "robax" in given:
-        axes = ir.Aggregate(tuple(new.items()), type_name="axes", origin=given["robax"].origin)
-        rest = tuple((name, value) for name, value in given.items() if name != "robax")
-        return replace(expression, entries=(("robax", axes), *rest))
-    rest = tuple((name, value) for name, value in given.items() if name not in _AXES)
-    return replace(expression, entries=(*new.items(), *rest))
-
-
-def _joint_values(value: Record) -> list[float] | None:
-    axes = value.part("robax")
-    source = axes if isinstance(axes, Record) else value
-    values = [component(source, name) for name in _AXES]
-    found = [float(one) for one in values if isinstance(one, int | float)]
-    return found if len(found) == len(values) else None
 
 
 def _inserted(

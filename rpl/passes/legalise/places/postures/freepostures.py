@@ -10,7 +10,7 @@ names the difference.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from rpl import ir, registry
@@ -20,7 +20,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.whereabouts import Whereabouts
-from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Target, real
 
@@ -91,7 +91,12 @@ class _Free(Rewriter):
         self.written = JointsOfPlaces(program, context)
         self.arm: Any = context.robot
         self.ours, self.theirs = ours, theirs
-        self.stands = Whereabouts(program, context)
+        self.unchanged = unchanged_in(program)
+
+    @cached_property
+    def stands(self) -> Whereabouts:
+        """Followed through the program when first asked for."""
+        return Whereabouts(self.source, self.context)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         if isinstance(statement, ir.Move) and _may_be_free(statement) and self.is_free(statement):
@@ -104,7 +109,7 @@ class _Free(Rewriter):
             return False
         if isinstance(self.type_of(move.target), ir.PoseType):
             return True
-        goal = constant(move.target, self.scope, self.stands.unchanged)
+        goal = constant(move.target, self.scope, self.unchanged)
         return isinstance(goal, Target) and all(value is None for _, value in goal.flags)
 
     def move(self, move: ir.Move) -> ir.Move:
