@@ -32,7 +32,7 @@ class Cell:
         if self.column >= 0:
             return literal(self.stretch.spellings[at][self.column], origin if self.placed else NOWHERE)
         if self.choice is not None:
-            one = self.choice.options[self.choice.answers[self.stretch.row(at)]]
+            one = self.choice.options[int(self.choice.answers[self.stretch.row(at)])]
             if not isinstance(one, IntLiteral | RealLiteral) or column_of(one.value) is None:
                 return one
             return Cell(self.stretch, one, self.signed).number(at, origin)

@@ -6,12 +6,14 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rpl import ir, translation
+from rpl import ir, registry, translation
 from rpl.diagnostics import Diagnostics
+from rpl.emulator.model import load_robot
 from rpl.ir.walk import walk
 from rpl.passes import stretches
 from rpl.passes.expanded import expanded
@@ -40,6 +42,21 @@ def krl_axes(parts: list[Rows], between: str) -> Source:
     )
 
 
+def krl_flags(parts: list[Rows], between: str) -> Source:
+    """Places with S and T, reached by any of the arm's postures."""
+    arm, middle, width = load_robot(ROBOT), np.array([0, -90, 90, 0, 0, 0]), np.array([60, 30, 40, 60, 80, 150])
+
+    def move(row: list[str], word: str) -> str:
+        joints = middle + width * np.sin([float(one) for one in row])
+        flags = NOTATION.encode(arm, joints)
+        numbers = map("{} {:.3f}".format, "XYZABC", NOTATION.values_of(arm.forward(joints)[None])[0])
+        return f"{word} {{{','.join(numbers)},S {flags['s']},T {flags['t']},E1 0.0}}"
+
+    bodies = ["\n".join(move(row, word) for row in rows) for rows, word in zip(parts, ("PTP", "LIN"), strict=False)]
+    text = ["DEF long()", "DECL INT i", "BAS(#INITMOV,0)", f"\n{between}\n".join(bodies), "END", ""]
+    return source_from_text("flags.src", "\n".join(text))
+
+
 def rapid(parts: list[Rows], between: str) -> Source:
     def move(row: list[str]) -> str:
         x, y, z, a, b, c = row
@@ -52,9 +69,12 @@ def rapid(parts: list[Rows], between: str) -> Source:
 
 
 _NONE = "[9E9,9E9,9E9,9E9,9E9,9E9]"
+ROBOT = "kuka_kr6r900sixx"
+NOTATION = registry.dialect("krl").notation()
 BETWEEN = {
     krl: ("i=1", "; a remark", "$VEL.CP=0.1", "$APO.CDIS=20", "WAIT SEC 1", "$OUT[3]=TRUE", "HALT", "LIN_REL {X 5}"),
     krl_axes: ("i=1", "; a remark", "$VEL_AXIS[1]=20", "$OUT[3]=TRUE"),
+    krl_flags: ("i=1", "$BASE={X 5,Y 0,Z 0,A 0,B 0,C 0}", "PTP {A1 0,A2 -90,A3 90,A4 0,A5 45,A6 0}"),
     rapid: ("i:=1;", "! a remark", "VelSet 50,200;", "WaitTime 1;", "SetDO do1,1;", "Stop;"),
 }
 DISTURBING = ("0", "-0", "0.0", "-0.0", "5", "-5", ".5", "7.", "180.0", "-180.0", "-179.9999", "90.0", "0.10000")
@@ -111,18 +131,29 @@ def written(source: Source, target: str, whole: bool, robot: str | None = None) 
     return (files, told, done.registers, done.program), count
 
 
-@given(st.sampled_from((krl, krl_axes, rapid)), st.lists(LISTS, min_size=1, max_size=2), st.data())
+@given(st.sampled_from((krl, krl_axes, krl_flags, rapid)), st.lists(LISTS, min_size=1, max_size=2), st.data())
 @settings(max_examples=60, deadline=None)
 def test_stretches_are_what_comes_of_each_move(write: Write, lists: list[Asked], data: st.DataObject) -> None:
     source = write([one.rows() for one in lists], data.draw(st.sampled_from(BETWEEN[write])))
     target = data.draw(st.sampled_from(TARGETS))
-    assert written(source, target, whole=False)[0] == written(source, target, whole=True)[0]
+    robot = data.draw(st.sampled_from((None, ROBOT)))
+    assert written(source, target, False, robot)[0] == written(source, target, True, robot)[0]
 
 
-@pytest.mark.parametrize(("write", "target"), [(krl, "rapid")])
-def test_long_lists_are_written_by_stretches(write: Write, target: str) -> None:
-    rows = Asked(3, 200, 5.0, ()).rows()
+@pytest.mark.parametrize("robot", [None, ROBOT])
+@pytest.mark.parametrize(("write", "width"), [(krl, 5.0), (krl_axes, 5.0), (krl_flags, 5.0)])
+def test_long_lists_are_written_by_stretches(write: Write, width: float, robot: str | None) -> None:
+    rows = Asked(3, 200, width, ()).rows()
     source = write([rows, rows], BETWEEN[write][0])
-    found, count = written(source, target, whole=False)
-    assert count > 300
-    assert found == written(source, target, whole=True)[0]
+    found, count = written(source, "rapid", False, robot)
+    assert count > 300 or (write is krl_flags and robot is None)  # there each joint move is told of
+    assert found == written(source, "rapid", True, robot)[0]
+
+
+def test_zones_of_some_moves_have_names_of_their_own() -> None:
+    """Where the tool turns far on a short way a zone needs a larger angle; the others keep the usual one."""
+    rows = [[f"{400 + 20.0 * at:.3f}", "5.0", "300.0", "0.0", f"{40 + at % 7 // 6 * 30}.0", "0.0"] for at in range(90)]
+    found, count = written(krl([rows], ""), "rapid", whole=False)
+    assert count > 60
+    assert {b"z5", b"z5Turning"} <= {line.split(b",")[-2] for line in found[0][0][1].splitlines() if b"MoveL" in line}
+    assert found == written(krl([rows], ""), "rapid", whole=True)[0]

@@ -7,12 +7,12 @@ over arrays. A row that needs a second question is asked alone.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from rpl.ir.columns import LooksInsideError, Stretch, in_each_row, stretch_of, whole_column
 
 if TYPE_CHECKING:
-    from rpl.emulator.configuration import Notation
+    from rpl.emulator.configuration import BatchNotation, Notation
 
 _AT_ONCE = 4096  # rows; all solutions of each are in memory
 
@@ -29,19 +29,16 @@ def joints_in_rows(
     be as the flags say. Raises LooksInsideError where a row has no answer."""
     import numpy as np
 
-    from rpl.emulator.configuration import BatchNotation
-
-    if not isinstance(notation, BatchNotation):
-        raise LooksInsideError(stretch)
+    rules = _of_many(stretch, notation)
     count = len(stretch.rows)
     poses = np.stack([np.broadcast_to(in_each_row(one), count) for row in matrix for one in row], axis=-1)
     given = np.full((count, len(notation.fields)), np.nan)
-    for at, name in enumerate(notation.fields):
+    for at, name in enumerate(rules.fields):
         if name in flags:
             given[:, at] = in_each_row(flags[name])
     for first in range(0, count, _AT_ONCE):
         some = poses[first : first + _AT_ONCE].reshape(-1, 4, 4)
-        joints = notation.select_all(arm, some, given[first : first + _AT_ONCE], None).joints
+        joints = rules.select_all(arm, some, given[first : first + _AT_ONCE], None).joints
         for at in np.flatnonzero(np.isnan(joints[:, 0])).tolist():
             nearest = None if joint else arm.nearest(some[at], arm.home)
             if nearest is None:
@@ -54,12 +51,16 @@ def flags_in_rows(stretch: Stretch, notation: Notation, arm: Any, joints: Iterat
     """The flags that a notation has for such joints."""
     import numpy as np
 
-    from rpl.emulator.configuration import BatchNotation
+    rules = _of_many(stretch, notation)
+    found = np.concatenate([rules.encode_all(arm, some) for some in joints])
+    return {name: whole_column(stretch, found[:, at]) for at, name in enumerate(rules.fields)}
 
-    if not isinstance(notation, BatchNotation):
+
+def _of_many(stretch: Stretch, notation: Notation) -> BatchNotation:
+    """The notation as one that answers for many places at once; those of a language's own may not."""
+    if not hasattr(notation, "select_all"):
         raise LooksInsideError(stretch)
-    found = np.concatenate([notation.encode_all(arm, some) for some in joints])
-    return {name: whole_column(stretch, found[:, at]) for at, name in enumerate(notation.fields)}
+    return cast("BatchNotation", notation)
 
 
 def degrees_in_rows(stretch: Stretch, names: tuple[str, ...], joints: Iterator[Any]) -> dict[str, int]:
