@@ -14,12 +14,18 @@ RANDOM = """.PROGRAM main()
  END
 .END
 """
+FIXED_ARC = """def main():
+  movel(p[0.3, -0.2, 0.3, 3.14, 0, 0], v=0.1)
+  movec(p[0.33, -0.17, 0.3, 3.14, 0, 0], p[0.36, -0.2, 0.3, 3.14, 0, 0], a=0.8, v=0.1, r=0, mode=1)
+end
+"""
 
 
 @pytest.mark.parametrize(
     ("program", "source", "arm", "lost", "targets"),
     [
         (RANDOM, "vplus", VIPER, [("random-numbers-lost", 3)], "rapid tp inform"),
+        (FIXED_ARC, "urscript", UR, [("fixed-arc-lost", 3)], "rapid tp inform vplus"),
     ],
 )
 def test_the_construct_is_named_at_its_line(

@@ -3,8 +3,8 @@ always turn to the orientation of their end.
 
 The place that such a path reaches has the start's orientation, whatever its target says. Where the start is known (the
 move before it goes to taught or written data), the target gets that orientation; where both are the same, nothing
-changes; where it cannot be known, the move is refused by name. An arc that keeps the tool as it is to the arc turns it
-by as much as the arc bends: the program works that out from the arc's three points (`fixedarcs`).
+changes; where it cannot be known, the loss is named at the move. An arc that keeps the tool as it is to the arc is
+refused.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import WRITTEN, taught_names, tell_written
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.walk import unchanged_in
-from rpl.passes.legalise.source.ways.fixedarcs import FixedArcs, is_fixed
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.rigid import NO_TURN, Pose, Rotation
@@ -34,6 +34,13 @@ LOST = code(
     "this path keeps the orientation of its start, which is not known here; the target's path turns to the one that is"
     " written at its end",
     "write the orientation that the tool has at the start into the target",
+)
+FIXED = code(
+    "fixed-arc-lost",
+    Severity.LOSS,
+    "along this arc the tool stays as it is to the arc; the target's arcs turn it to the orientation at their end",
+    "write the orientation that the tool has at the end of the arc, and arcs of half a circle or more in parts",
+    stops=True,
 )
 _MODE = "orientation_mode"
 _FRAMES = ("tool", "base")
@@ -91,8 +98,6 @@ class _Paths:
         self.effects = _effects(program)
         self.scope: Scope | None = None
         self.reports = False
-        self.arcs = FixedArcs(program, context)
-        self.passed = False  # the move before does not stop at its end
 
     def program(self) -> ir.Program:
         modules = tuple(
@@ -103,27 +108,10 @@ class _Paths:
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         self.scope, self.reports = self.scopes.routine(module, routine), True
-        done = edit_bodies(routine, lambda body: self.body(body, _State()))
-        return replace(done, declarations=(*routine.declarations, *self.arcs.taken()))
+        return edit_bodies(routine, lambda body: self.body(body, _State()))
 
     def body(self, body: ir.Body, state: _State) -> ir.Body:
-        done: list[ir.Statement] = []
-        for statement in body:
-            turned = self.fixed_arc(statement, state)
-            done.extend(turned or (self.statement(statement, state),))
-        return tuple(done)
-
-    def fixed_arc(self, statement: ir.Statement, state: _State) -> ir.Body | None:
-        """The arc that keeps the tool as it is to the arc, with the steps that work out its end."""
-        if not isinstance(statement, ir.Move):
-            return None
-        passed, self.passed = self.passed, not isinstance(statement.blend, ir.BlendStop | None)
-        if not is_fixed(statement) or PathRule.FIXED_ARCS in self.context.capabilities.motion.paths or passed:
-            return None
-        done = self.arcs.written(statement, self.scope) if self.reports and self.scope is not None else None
-        if done is not None:
-            state.last = None
-        return done
+        return tuple(self.statement(one, state) for one in body)
 
     def statement(self, statement: ir.Statement, state: _State) -> ir.Statement:
         match statement:
@@ -189,7 +177,7 @@ class _Paths:
 
     # ---- moves
 
-    def move(self, move: ir.Move, state: _State) -> ir.Move:
+    def move(self, move: ir.Move, state: _State) -> ir.Statement:
         settings = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
         own = settings.get(_MODE)
         mode = move.orientation or (own.member if isinstance(own, ir.EnumLiteral) else state.mode)
@@ -210,10 +198,11 @@ class _Paths:
             state.last, state.taught = there, names
             return move
         start = state.last
-        if start is None or there is None or is_fixed(move):
-            if is_fixed(move) and PathRule.FIXED_ARCS in self.context.capabilities.motion.paths:
-                state.last = None
-                return move
+        if _is_fixed(move):
+            state.last = None
+            given = not self.reports or PathRule.FIXED_ARCS in self.context.capabilities.motion.paths
+            return move if given else stopped(move, FIXED, self.context)
+        if start is None or there is None:
             if self.reports:
                 self.context.diagnostics.report(LOST, move.origin)
             state.last = None
@@ -241,6 +230,11 @@ class _Paths:
         if self.reports:
             self.context.diagnostics.report(LOST, move.origin)
         return move
+
+
+def _is_fixed(move: ir.Move) -> bool:
+    """Does the move keep the tool as it is to its arc?"""
+    return move.kind == "circular" and move.orientation == "constant" and move.circle_orientation == "path"
 
 
 def _written(value: Target | Pose, rotation: Rotation) -> ir.Aggregate:
