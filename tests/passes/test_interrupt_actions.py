@@ -1,4 +1,4 @@
-"""Interrupts that are disabled one by one, and calls with arguments by interrupts and places on the path."""
+"""Calls with arguments by interrupts and places on the path."""
 
 from __future__ import annotations
 
@@ -35,38 +35,6 @@ WAIT SEC 0.1
 END
 """
 DATA = "DEFDAT JOB\nDECL INT TOTAL=0\nENDDAT\n"
-DISABLED = {
-    "what comes meanwhile acts once": """INTERRUPT ON 20
-RAISE(1)
-INTERRUPT DISABLE 20
-RAISE(1)
-RAISE(1)
-$OUT[1]=(TOTAL==2)
-INTERRUPT ENABLE 20
-WAIT SEC 0.1
-$OUT[2]=(TOTAL==4)
-RAISE(1)
-$OUT[3]=(TOTAL==6)
-""",
-    "what is switched off meanwhile is forgotten": """INTERRUPT ON 20
-INTERRUPT DISABLE 20
-RAISE(1)
-INTERRUPT OFF 20
-INTERRUPT ENABLE 20
-WAIT SEC 0.1
-$OUT[1]=(TOTAL==0)
-""",
-    "the others act": """INTERRUPT ON 20
-INTERRUPT ON 21
-INTERRUPT DISABLE 20
-RAISE(2)
-$OUT[1]=(TOTAL==10)
-RAISE(1)
-INTERRUPT ENABLE 20
-WAIT SEC 0.1
-$OUT[2]=(TOTAL==12)
-""",
-}
 PATHS = {
     "constants": """TRIGGER WHEN DISTANCE=1 DELAY=0 DO COUNT(3) PRIO=-1
 LIN_REL {Z -90.0}
@@ -108,27 +76,10 @@ def translated(body: str, target: str) -> list[str]:
     return [item.as_text() for item in told.of(Severity.LOSS)]
 
 
-@pytest.mark.parametrize("target", ["rapid", "vplus"])
-@pytest.mark.parametrize("name", DISABLED)
-def test_a_single_interrupt_waits(name: str, target: str) -> None:
-    assert not translated(DISABLED[name], target)
-
-
 @pytest.mark.parametrize("target", ["rapid", "vplus", "tp", "urscript", "inform"])
 @pytest.mark.parametrize("name", PATHS)
 def test_calls_on_the_path_have_arguments(name: str, target: str) -> None:
     assert not translated(PATHS[name], target)
-
-
-def test_an_interrupt_that_leaves_what_it_interrupted_is_not_called_later() -> None:
-    leaves = "INTERRUPT DISABLE 20\nINTERRUPT ENABLE 20\n"
-    files = [
-        source_from_text("job.src", START + leaves + END.replace("TOTAL=TOTAL+K", "RESUME")),
-        source_from_text("job.dat", DATA),
-    ]
-    told = Diagnostics()
-    translate_program(read_sources(files, "krl", Diagnostics()), "vplus", KUKA, None, told)
-    assert any("a single interrupt cannot be disabled" in item.as_text() for item in told.of(Severity.LOSS))
 
 
 @pytest.mark.parametrize(("target", "told"), [("rapid", True), ("urscript", True), ("vplus", False)])

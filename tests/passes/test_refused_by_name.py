@@ -19,6 +19,17 @@ FIXED_ARC = """def main():
   movec(p[0.33, -0.17, 0.3, 3.14, 0, 0], p[0.36, -0.2, 0.3, 3.14, 0, 0], a=0.8, v=0.1, r=0, mode=1)
 end
 """
+HELD_ALONE = """DEF main( )
+INTERRUPT DECL 5 WHEN $IN[1] DO HELD( )
+INTERRUPT ON 5
+INTERRUPT DISABLE 5
+WAIT SEC 1
+INTERRUPT ENABLE 5
+END
+DEF HELD( )
+$OUT[1]=TRUE
+END
+"""
 
 
 @pytest.mark.parametrize(
@@ -26,6 +37,7 @@ end
     [
         (RANDOM, "vplus", VIPER, [("random-numbers-lost", 3)], "rapid tp inform"),
         (FIXED_ARC, "urscript", UR, [("fixed-arc-lost", 3)], "rapid tp inform vplus"),
+        (HELD_ALONE, "krl", KUKA, [("interrupt-held-alone", 4), ("interrupt-held-alone", 6)], "rapid vplus"),
     ],
 )
 def test_the_construct_is_named_at_its_line(

@@ -14,7 +14,6 @@ from rpl.passes.legalise.interrupts.nestedinterrupts import nested_interrupts
 from rpl.passes.legalise.interrupts.onceonly import reactions_once, rearmed_reactions
 from rpl.passes.legalise.interrupts.reactions import reactions
 from rpl.passes.legalise.interrupts.resumes import resumes
-from rpl.passes.legalise.interrupts.singledisables import single_disables
 from rpl.passes.legalise.interrupts.statics import static_variables
 from rpl.passes.legalise.interrupts.storedpaths import stored_paths
 from rpl.passes.legalise.interrupts.tasks.background import background_tasks
@@ -33,7 +32,6 @@ STAGE = Stage(
         clocks_of_routines,
         reactions_once,
         nested_interrupts,
-        single_disables,
         stored_paths,
         held_motion,
         reactions,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import InterruptRule
 from rpl.passes.legalise.interrupts.brakedmoves import BRAKED
 from rpl.passes.legalise.interrupts.heldmotion import EARLY, STAYS
 from rpl.passes.legalise.interrupts.identities import ASKED, ORDERED, SEVERAL
@@ -33,6 +34,13 @@ SEARCH = code(
     "use the controller's own search function, or drive in short steps and ask the condition between them",
     stops=True,
 )
+ALONE = code(
+    "interrupt-held-alone",
+    Severity.LOSS,
+    "the target holds back all interrupts or none, not one alone",
+    "switch the interrupt off here, or let its routine ask a variable that is set here",
+    stops=True,
+)
 _INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))
 
 
@@ -47,6 +55,11 @@ def _connected(statement: ir.ConnectInterrupt, asked: Asked) -> Found:
     return () if _INTERRUPTS & asked.can.statements else ({"action": statement.routine},)
 
 
+def _held_alone(statement: ir.ControlInterrupt, asked: Asked) -> Found:
+    given = InterruptRule.SINGLE_DISABLES in asked.can.interrupts.rules or not _INTERRUPTS & asked.can.statements
+    return PLAINLY if not given and statement.op in ("disable", "enable") and statement.handle is not None else ()
+
+
 def _search(statement: ir.Move, asked: Asked) -> Found:
     can = asked.can.statements
     return PLAINLY if statement.search is not None and "Search" not in can and not _INTERRUPTS & can else ()
@@ -55,6 +68,7 @@ def _search(statement: ir.Move, asked: Asked) -> Found:
 MOTION = (
     Refusal("an interrupt", INTERRUPT, (ir.DeclareInterrupt,), _declared),
     Refusal("an interrupt of a trap routine", INTERRUPT, (ir.ConnectInterrupt,), _connected),
+    Refusal("one interrupt that is held back and goes on later", ALONE, (ir.ControlInterrupt,), _held_alone),
     Refusal("an interrupt variable of several routines", SEVERAL),
     Refusal("an interrupt variable that is ordered in several ways", ORDERED),
     Refusal("a routine that asks which interrupt has called it", ASKED),
