@@ -16,6 +16,6 @@ PASSES: tuple[Placed, ...] = (
     Placed(name_groups, "io", behind="number_signals"),
     Placed(start_bases, "settings", behind="explicit_to_modal"),
     Placed(polled_ahead, "storage", behind="ahead_readings"),
-    Placed(roomy_texts, "storage", behind="truths_to_numbers"),
-    Placed(signals_by_name, "storage", behind="truths_to_numbers"),
+    Placed(roomy_texts, "storage", behind="one_spelling"),
+    Placed(signals_by_name, "storage", behind="one_spelling"),
 )

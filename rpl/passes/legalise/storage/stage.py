@@ -13,7 +13,6 @@ from rpl.passes.legalise.storage.numbered import number_data
 from rpl.passes.legalise.storage.saidtwice import said_once
 from rpl.passes.legalise.storage.sharing import share_temporaries
 from rpl.passes.legalise.storage.spelling import one_spelling
-from rpl.passes.legalise.storage.truths import truths_to_numbers
 from rpl.passes.legalise.storage.unused import drop_idle_data, drop_unused
 
 STAGE = Stage(
@@ -27,7 +26,6 @@ STAGE = Stage(
         points_of_modules,
         labels_as_remarks,
         one_spelling,
-        truths_to_numbers,
         share_temporaries,
         drop_idle_data,
         number_data,
