@@ -1,5 +1,5 @@
-"""Whether a variable has a value yet, in targets that cannot ask: a BOOL beside it, where the answer is not certain.
-What cannot be followed is refused at its place."""
+"""Whether a variable has a value yet, in targets that cannot ask: known where it is assigned on every way; else the
+question is refused at its place."""
 
 from __future__ import annotations
 
@@ -15,27 +15,20 @@ from tests.refusing import refused
 ROUTINES = {
     "may": ".PROGRAM may(a, b)\n IF b == 1 THEN\n a = 3\n END\n.END\n",
     "passed": ".PROGRAM passed(a, b)\n CALL may(a, b)\n.END\n",
-    "count": ".PROGRAM count()\n IF NOT DEFINED(total) THEN\n total = 0\n END\n total = total+1\n.END\n",
     "both": ".PROGRAM both(a, low, high, done)\n IF DEFINED(low) THEN\n done = done+low\n END\n"
     " IF DEFINED(high) THEN\n done = done+high\n END\n.END\n",
     "given": ".PROGRAM given(a, done)\n done = DEFINED(a)\n.END\n",
 }
 # Statements, and what holds behind them.
 CASES = {
-    "never": ("", "NOT DEFINED(n)"),
     "assigned": ("n = 1", "DEFINED(n)"),
-    "in a branch": ("FOR i = 1 TO 2\nIF i == 2 THEN\nIF NOT DEFINED(n) THEN\nn = 1\nEND\nEND\nEND", "DEFINED(n)"),
-    "in a branch not taken": ("i = 1\nIF i == 2 THEN\nn = 1\nEND", "NOT DEFINED(n)"),
     "in every branch": ("i = 1\nIF i == 2 THEN\nn = 1\nELSE\nn = 2\nEND", "DEFINED(n)"),
-    "behind a jump": ("i = 1\nIF i == 1 GOTO 10\nn = 1\n10 i = 2", "NOT DEFINED(n)"),
-    "in the second pass": ("m = 0\nFOR i = 1 TO 2\nIF DEFINED(n) THEN\nm = m+1\nEND\nn = 1\nEND", "m == 1"),
     "counter": ("FOR i = 1 TO 0\nEND", "DEFINED(i)"),
-    "text": ('IF NOT DEFINED($t) THEN\n$t = "x"\nEND', "DEFINED($t)"),
-    "place": ("IF NOT DEFINED(p) THEN\nSET p = TRANS(1,2,3,0,0,0)\nEND", "DEFINED(p)"),
-    "of the project": ("CALL count()\nCALL count()", "total == 2"),
     "of parameters behind one left out": ("m = 0\nCALL both(1, 2, 4, m)\nCALL both(1, , 8, m)", "m == 14"),
 }
 REFUSED = {
+    "in a branch": ("IF q == 2 THEN\nn = 1\nEND", "DEFINED(n)", 6),
+    "behind a jump": ("IF q == 1 GOTO 10\nn = 1\n10 q = 2", "DEFINED(n)", 6),
     "set by a routine": ("CALL may(n, 1)", "DEFINED(n)", 4),
     "set by a routine of a routine": ("CALL passed(n, 1)", "DEFINED(n)", 4),
     "an element": ("LOCAL a[9]\na[0] = 4", "NOT DEFINED(a[8])", 5),
@@ -65,11 +58,6 @@ def test_the_answer_is_the_same(name: str, target: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     entry = written.renamed.get("main", "main")
     assert [value for _, _, value in run_program(back.program, entry=entry).outputs] == [True]
-
-
-def test_what_is_certain_needs_no_flag() -> None:
-    written = translate_program(read(program(*CASES["in every branch"])), "rapid", None, None, Diagnostics())
-    assert "n_set" not in "".join(file.data.decode() for file in written.files)
 
 
 @pytest.mark.parametrize("target", ["rapid", "tp", "inform", "urscript"])

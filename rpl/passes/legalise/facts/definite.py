@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.usage import base_name
-from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion
+from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.rewrite import rewrite_parts
 
 
@@ -30,10 +30,6 @@ class Definite:
     def calling(self, statement: ir.CallRoutine) -> ir.CallRoutine:
         return statement
 
-    def now_set(self, name: str) -> ir.Body:
-        """What follows the first assignment of a variable."""
-        return ()
-
     # ---- the walk
 
     def routine(self, routine: ir.Routine) -> ir.Routine:
@@ -49,7 +45,7 @@ class Definite:
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         for statement in body:
-            done.extend(self.statement(statement))
+            done.append(self.statement(statement))
             if any(isinstance(node, ir.Label) for node in walk(statement)):
                 self.known = set()
         return tuple(done)
@@ -61,32 +57,30 @@ class Definite:
         self.known = outside
         return done
 
-    def statement(self, statement: ir.Statement) -> ir.Body:
+    def statement(self, statement: ir.Statement) -> ir.Statement:
         match statement:
             case ir.If(branches=branches, otherwise=otherwise):
                 conditions = [self.expression(condition) for condition, _ in branches]
                 chosen, other = self.choice([*(body for _, body in branches), otherwise])
                 pairs = tuple(zip(conditions, chosen, strict=True))
-                return (replace(statement, branches=pairs, otherwise=other),)
+                return replace(statement, branches=pairs, otherwise=other)
             case ir.Switch(selector=selector, cases=cases, default=default):
                 selector = self.expression(selector)
                 chosen, other = self.choice([*(case.body for case in cases), default or ()])
                 listed = tuple(replace(case, body=body) for case, body in zip(cases, chosen, strict=True))
-                return (
-                    replace(statement, selector=selector, cases=listed, default=None if default is None else other),
-                )
+                return replace(statement, selector=selector, cases=listed, default=None if default is None else other)
             case ir.For(counter=counter):
                 counting = rewrite_parts(statement, self.expression)
-                first = () if statement.scoped else self.assigned(counter.lower())
-                return expansion(statement.origin, (*first, replace(counting, body=self.inner(statement.body))))
+                self.known |= set() if statement.scoped else {counter.lower()}
+                return replace(counting, body=self.inner(statement.body))
             case ir.While() | ir.Repeat() | ir.Loop():
                 parts = rewrite_parts(statement, self.expression)
-                return (replace(parts, body=self.inner(statement.body)),)
+                return replace(parts, body=self.inner(statement.body))
         done = rewrite_parts(statement, self.expression, self.inner)
         if isinstance(done, ir.CallRoutine):
             done = self.calling(done)
-        behind = [one for target in _places(statement) for one in self.assigned(target)]
-        return (done,) if not behind else expansion(statement.origin, (done, *behind))
+        self.known |= set(_places(statement))
+        return done
 
     def choice(self, bodies: list[ir.Body]) -> tuple[list[ir.Body], ir.Body]:
         """Bodies of which one runs, the last being the one for all other cases."""
@@ -97,12 +91,6 @@ class Definite:
             ends.append(self.known)
         self.known = set.intersection(*ends)
         return done[:-1], done[-1]
-
-    def assigned(self, name: str) -> ir.Body:
-        if name in self.known:
-            return ()
-        self.known.add(name)
-        return self.now_set(name)
 
 
 def _places(statement: ir.Statement) -> list[str]:

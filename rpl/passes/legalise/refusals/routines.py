@@ -10,5 +10,5 @@ __all__ = ["ROUTINES"]
 
 ROUTINES = (
     Refusal("a routine that calls itself, where all calls share its variables", RECURSION),
-    Refusal("the question whether an element, a parameter, or what a routine has set has a value yet", VALUE),
+    Refusal("the question whether something has a value yet, where the way to it does not tell", VALUE),
 )
