@@ -30,6 +30,21 @@ DEF HELD( )
 $OUT[1]=TRUE
 END
 """
+IN_USE = """MODULE main
+  PERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
+  PROC main()
+    t:=CTool();
+    SetDO do1,1;
+  ENDPROC
+ENDMODULE
+"""
+PAYLOAD = """def main():
+  set_payload(1.5, [0, 0, 0.05])
+  if get_target_payload() > 1:
+    set_standard_digital_out(1, True)
+  end
+end
+"""
 
 
 @pytest.mark.parametrize(
@@ -38,6 +53,8 @@ END
         (RANDOM, "vplus", VIPER, [("random-numbers-lost", 3)], "rapid tp inform"),
         (FIXED_ARC, "urscript", UR, [("fixed-arc-lost", 3)], "rapid tp inform vplus"),
         (HELD_ALONE, "krl", KUKA, [("interrupt-held-alone", 4), ("interrupt-held-alone", 6)], "rapid vplus"),
+        (IN_USE, "rapid", ABB, [("record-in-use-lost", 4)], "krl tp urscript vplus inform"),
+        (PAYLOAD, "urscript", UR, [("payload-question-lost", 3)], "krl tp vplus inform"),
     ],
 )
 def test_the_construct_is_named_at_its_line(

@@ -8,7 +8,7 @@ from typing import get_args
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.facts.usage import each_expression
-from rpl.passes.legalise.refusals.rows import Asked, Found, Refusal
+from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 
 __all__ = ["VALUES"]
 
@@ -19,6 +19,22 @@ RANDOM = code(
     "take the numbers from a table of the program, or from a signal",
     stops=True,
 )
+USED = code(
+    "record-in-use-lost",
+    Severity.LOSS,
+    "the target cannot give the {what} in use as a record",
+    "use the data that the program has set as {what}",
+    stops=True,
+)
+PAYLOAD = code(
+    "payload-question-lost",
+    Severity.LOSS,
+    "the target's programs cannot ask for the payload in use",
+    "keep it in variables where it is set",
+    stops=True,
+)
+_IN_USE = {"current_tool": "tool", "current_frame": "work object"}
+_LOAD = ir.System("load")
 
 
 def _lacking(*functions: str) -> Callable[[ir.Statement, Asked], Found]:
@@ -38,4 +54,30 @@ def _lacking(*functions: str) -> Callable[[ir.Statement, Asked], Found]:
     return refused
 
 
-VALUES = (Refusal("random numbers", RANDOM, get_args(ir.Statement), _lacking("random")),)
+def _in_use(statement: ir.Assign, asked: Asked) -> Found:
+    """The tool or work object in use as a whole."""
+    match statement.value:
+        case ir.Builtin(function=function, arguments=()) if function in _IN_USE.keys() - asked.can.functions:
+            return ({"what": _IN_USE[function]},)
+    return ()
+
+
+def _payload(statement: ir.Statement, asked: Asked) -> Found:
+    """Parts of the payload that are asked for."""
+    if _LOAD.name in asked.can.system_variables:
+        return ()
+    found: list[ir.Expression] = []
+
+    def look(expression: ir.Expression) -> None:
+        if isinstance(expression, ir.Field) and expression.base == _LOAD:
+            found.append(expression)
+
+    each_expression(statement, look)
+    return PLAINLY if found else ()
+
+
+VALUES = (
+    Refusal("random numbers", RANDOM, get_args(ir.Statement), _lacking("random")),
+    Refusal("the tool or work object in use as a record", USED, (ir.Assign,), _in_use, left=False),
+    Refusal("the payload in use", PAYLOAD, get_args(ir.Statement), _payload),
+)

@@ -9,7 +9,6 @@ from rpl.passes.legalise.source.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.source.fixeddata import fixed_data
 from rpl.passes.legalise.source.grownarrays import grown_arrays
 from rpl.passes.legalise.source.keptvalues import kept_values_known
-from rpl.passes.legalise.source.loadreadings import load_readings
 from rpl.passes.legalise.source.loadvariables import load_variables
 from rpl.passes.legalise.source.namedflags import named_flags
 from rpl.passes.legalise.source.neutralfunctions import neutral_functions
@@ -21,7 +20,6 @@ from rpl.passes.legalise.source.places.fewaxes import axes_of_arm
 from rpl.passes.legalise.source.places.homes import home_positions
 from rpl.passes.legalise.source.places.keptangles import named_angles
 from rpl.passes.legalise.source.places.pulses import fold_pulses
-from rpl.passes.legalise.source.places.recordsinuse import records_in_use
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
 from rpl.passes.legalise.source.precisions import precisions
@@ -63,10 +61,8 @@ STAGE = Stage(
         axes_of_arm,
         copied_flags,
         read_ports,
-        records_in_use,
         seen_half,
         step_times,
-        load_readings,
         load_variables,
         whole_times,
         same_units,
