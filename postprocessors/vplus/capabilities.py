@@ -134,7 +134,7 @@ CAPABILITIES = Capabilities(
         )
     ),
     data=Data(
-        rules=frozenset((DataRule.ROW_SIZES, DataRule.TRUE_IS_MINUS_ONE)),
+        rules=frozenset((DataRule.ROW_SIZES,)),
         composites=frozenset((Composite.ARRAYS,)),
         aggregates=frozenset((Aggregate.NAMED,)),
     ),

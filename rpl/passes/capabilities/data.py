@@ -35,9 +35,6 @@ class DataRule(StrEnum):
     """The function `dimension` tells of a list in lists how many there are in any of its dimensions (else the sizes of
     such a list come with it where a routine is given it)."""
 
-    TRUE_IS_MINUS_ONE = auto()
-    """There is no type of truth values, and true is the number -1 (without such a type else: 1)."""
-
     COMPARED_RECORDS = auto()
     """Whole records are compared (else each of their components)."""
 

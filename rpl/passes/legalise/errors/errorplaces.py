@@ -34,7 +34,7 @@ _NAME = "unreachable"
     ),
     sees=("OnError",),
 )
-def unreachable_moves(program: ir.Program, context: Context) -> ir.Program:
+def errors_of_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a routine, for the arm that the program was written for."""
     if not any(isinstance(one, ir.OnError) and one.routine is not None for one in walk(*program.modules)):
         return program
@@ -64,4 +64,4 @@ class _Places(Rewriter):
         return flange is not None and not arm.inverse(flange.matrix, arm.home)
 
 
-__all__ = ["unreachable_moves"]
+__all__ = ["errors_of_places"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from rpl.passes.legalise.errors.bookkeeping import without_bookkeeping
 from rpl.passes.legalise.errors.declaredvalues import declared_values
 from rpl.passes.legalise.errors.errornumbers import error_numbers
-from rpl.passes.legalise.errors.errorplaces import unreachable_moves
+from rpl.passes.legalise.errors.errorplaces import errors_of_places
 from rpl.passes.legalise.errors.errortexts import error_texts
 from rpl.passes.legalise.errors.interruptplaces import interrupt_places
 from rpl.passes.legalise.errors.knowncalls import known_calls
@@ -25,7 +25,7 @@ STAGE = Stage(
     "errors",
     (
         interrupt_places,
-        unreachable_moves,
+        errors_of_places,
         error_numbers,
         error_texts,
         link_prelude,
