@@ -13,6 +13,7 @@ from rpl.passes.capabilities import (
     Interrupts,
     Io,
     Local,
+    ModulePoints,
     Motion,
     MoveSetting,
     NameRules,
@@ -25,6 +26,7 @@ from rpl.passes.capabilities import (
     Routines,
     SearchResult,
     Settings,
+    Storage,
     TextRule,
     Texts,
     Watched,
@@ -83,6 +85,7 @@ CAPABILITIES = Capabilities(
         speeds=frozenset(("joint", "axis", "path", "duration", "path_acceleration", "axis_acceleration")),
         blends=frozenset(("BlendDistance",)),
     ),
+    storage=Storage(module_points=ModulePoints.GLOBAL),
     interrupts=Interrupts(watched=Watched.ALL),
     io=Io(
         wait_timeout=True,

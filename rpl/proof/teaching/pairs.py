@@ -108,8 +108,11 @@ def _same_number(one: Datum, other: Datum) -> bool:
 
 
 def _names(datum: Datum) -> set[str]:
-    """Its names without signs, folded; its first part has the name of the whole too."""
+    """Its names without signs, folded; its first part has the name of the whole too. One of a routine has also that of
+    its routine in front, as it is called where points of all routines stand beside each other."""
     found = {_bare(datum.variable + datum.part)}
+    if datum.routine:
+        found.add(_bare(f"{datum.routine}{datum.variable}{datum.part}"))
     return found | {_bare(datum.variable)} if datum.first and not datum.part.startswith("[") else found
 
 

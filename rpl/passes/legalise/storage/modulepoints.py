@@ -1,16 +1,20 @@
 """Taught points as data of the module: a person looks for them in the data list (KRL), above the routines (RAPID) or in
 the section of locations (V+), and can teach them anew there. They come as constants of routines from controllers that
-keep their points in each program.
+keep their points in each program. Where all modules share their names, points of one name get that of their comment or
+that of their routine in front.
 """
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import TypeGuard
 
 from rpl import ir
+from rpl.ir.walk import rewrite
 from rpl.passes.capabilities import ModulePoints
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
@@ -18,13 +22,18 @@ from rpl.passes.legalise.storage.points import is_point
 
 __all__ = ["points_of_modules"]
 
+_SIGNS = re.compile(r"[^A-Za-z0-9]+")
+
 
 @legalising(unless=lambda context: context.capabilities.storage.module_points is ModulePoints.NO)
 def points_of_modules(program: ir.Program, context: Context) -> ir.Program:
-    """Only where nothing else of that name could be meant."""
+    """Only where nothing else of that name could be meant, unless it can have another one."""
     kind = context.capabilities.storage.module_points
     everywhere = Counter(name for module in program.modules for name in _names(module))
     shared = {name for module in program.modules for name in _shared(module)}
+    if kind is ModulePoints.GLOBAL:
+        program = _apart(program, everywhere, context)
+        everywhere = Counter(name for module in program.modules for name in _names(module))
     modules = []
     for module in program.modules:
         own = Counter(_names(module))
@@ -32,6 +41,37 @@ def points_of_modules(program: ir.Program, context: Context) -> ir.Program:
         storage = "persistent" if kind is ModulePoints.LIST else "constant"
         modules.append(_lifted(module, {name for name, times in meant.items() if times == 1}, storage))
     return replace(program, modules=tuple(modules))
+
+
+def _apart(program: ir.Program, everywhere: Counter[str], context: Context) -> ir.Program:
+    """The program with other names for points of routines that share theirs."""
+    modules = []
+    for module in program.modules:
+        routines = []
+        for routine in module.routines:
+            named = {
+                one.name.lower(): context.fresh(_word(one.label) or f"{routine.name}_{one.name}")
+                for one in routine.declarations
+                if _is_taught(one) and everywhere[one.name.lower()] > 1
+            }
+            routines.append(rewrite(routine, partial(_renamed, named=named)) if named else routine)
+        modules.append(replace(module, routines=tuple(routines)))
+    return replace(program, modules=tuple(modules))
+
+
+def _word(label: str) -> str:
+    """A comment as a name; empty where it is none."""
+    word = _SIGNS.sub("_", label.strip()).strip("_").lower()
+    return word if word[:1].isalpha() else ""
+
+
+def _renamed(node: object, named: Mapping[str, str]) -> object:
+    match node:
+        case ir.Name(id=name) if name.lower() in named:
+            return replace(node, id=named[name.lower()])
+        case ir.Variable(name=name) if name.lower() in named:
+            return replace(node, name=named[name.lower()])
+    return node
 
 
 def _names(module: ir.Module) -> Iterator[str]:
