@@ -38,6 +38,7 @@ class Calls(Expressions):
                 "len": self.length, "mid": self.middle, "left": self.left, "right": self.right, "find": self.find,
                 "chr": self.character, "asc": self.code, "toString": self.to_string, "aioGet": self.signal_value,
                 "isEmpty": self.at_rest, "isSettled": self.at_rest, "isPowered": self.powered,
+                "getKey": self.key,
                 "taskStatus": self.task_status, "getMonitorSpeed": self.override, "setFrame": self.set_frame,
             }
         )  # fmt: skip
@@ -199,6 +200,10 @@ class Calls(Expressions):
 
     def at_rest(self, items: list[SyntaxTree]) -> Value:
         return Value(ir.Unary("not", ir.System("moving", origin=self.origin)), "bool")
+
+    def key(self, items: list[SyntaxTree]) -> Value:
+        """The key that the operator has pressed last, -1 for none: only the cell can say."""
+        return Value(ir.VendorValue("val3", "getKey()", ir.RealType(), origin=self.origin), "num")
 
     def powered(self, items: list[SyntaxTree]) -> Value:
         """A program that runs has power on its arm."""

@@ -19,6 +19,7 @@ from rpl.passes.capabilities import (
     Places,
     RoutineRule,
     Routines,
+    SearchResult,
     SettingRule,
     Settings,
     Tasks,
@@ -31,7 +32,8 @@ from . import tables
 CAPABILITIES = Capabilities(
     statements=tables.words(
         """Assign CallRoutine If Switch For While Repeat Loop ExitLoop NextPass Return Wait WaitUntil
-        WaitForMotion StopMotion StartMotion ClearMotion Halt Pulse Message TaskControl Nothing Move Vendor Opaque"""
+        WaitForMotion StopMotion StartMotion ClearMotion Halt Pulse Message TaskControl Search Nothing Move Vendor
+        Opaque"""
     ),
     functions=frozenset(
         (
@@ -55,7 +57,11 @@ CAPABILITIES = Capabilities(
     ),
     conversions=tables.words("real round_half_away trunc bit truth floor"),
     places=Places(notation="val3", rules=frozenset()),
-    motion=Motion(turned_ways=frozenset(), paths=frozenset()),
+    motion=Motion(
+        turned_ways=frozenset(),
+        paths=frozenset(),
+        search_results=frozenset((SearchResult.FOUND, SearchResult.HIT)),
+    ),
     settings=Settings(
         modal=True,
         of_moves=frozenset(

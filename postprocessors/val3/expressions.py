@@ -17,8 +17,16 @@ from . import tables
 from .data import Store
 
 NULL = ir.System("null_frame")
+_STANDS = ir.Unary("not", ir.System("moving"))
 ZERO = "{0,0,0,0,0,0}"
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": " "}
+
+
+class _Printer(ExpressionPrinter):
+    """VAL3 asks whether the robot stands, not whether it moves."""
+
+    def printed(self, expression: ir.Expression) -> Printed:
+        return Printed("isSettled()") if expression == _STANDS else super().printed(expression)
 
 
 class Expressions:
@@ -27,7 +35,7 @@ class Expressions:
 
     def __init__(self, scope: Scope, store: Store, roles: Mapping[str, str], fathers: Mapping[str, str]) -> None:
         self.scope, self.store, self.roles, self.fathers = scope, store, roles, fathers
-        self.printer = ExpressionPrinter(tables.OPERATORS, self._hook)
+        self.printer = _Printer(tables.OPERATORS, self._hook)
         self.around: tuple[str, str] | None = None  # tool and frame of the movement whose places are printed
 
     def text(self, expression: ir.Expression) -> str:
@@ -228,7 +236,7 @@ class Expressions:
                 return f"{{{self.listed((x, y, z))},0,0,0}}*{self.printer.text(pose, tables.SIGN)}"
             case "distance", (ir.Field(base=one, name="trans"), ir.Field(base=other, name="trans")):
                 return f"distance({self.text(one)},{self.text(other)})"
-            case "distance", (one, other) if all(isinstance(self.type(each), ir.PoseType) for each in values):
+            case "distance", (one, other) if all(isinstance(self.type(v), ir.PoseType | ir.TargetType) for v in values):
                 return f"distance({self.text(one)},{self.text(other)})"
         raise CannotSayError(f"there is no function {name.replace('_', ' ')}")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import zip_longest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -43,8 +44,12 @@ class Statements:
     def body(self, body: ir.Body) -> list[str]:
         """All lines of a body, not indented."""
         lines: list[str] = []
-        for statement in body:
-            lines.extend(self.statement(statement))
+        for statement, following in zip_longest(body, body[1:]):
+            if isinstance(statement, ir.StopMotion) and isinstance(following, ir.ClearMotion):
+                self.ledger.written(statement)  # resetMotion stops the robot too
+                lines.extend(self.framed(statement.origin, []))
+            else:
+                lines.extend(self.statement(statement))
         return lines
 
     def statement(self, statement: ir.Statement) -> list[str]:
@@ -180,6 +185,8 @@ class Statements:
                 return say("halt")
             case ir.Message(kind="clear"):
                 return say("clear")
+            case ir.Message(kind="quit", text=text):
+                return say("acknowledged", text=self.shown(text))
             case ir.Message(kind=kind, text=text) if kind in tables.MESSAGES:
                 return say("message", word=tables.MESSAGES[kind], text=self.shown(text))
             case ir.Vendor(dialect="val3", text=text):
@@ -238,9 +245,17 @@ class Statements:
         if e.father(value) == "world":
             return e.point(value)
         name = e.store.helper(f"pGiven{at + 1}", "pointRx", "world")
-        before.append(f"{name}.trsf={self.text(value)}")
-        before.append(f"{name}.config={e.storage(value)}.config")
+        taken, source = self.taken(value)
+        before.extend((*taken, f"{name}.trsf={source}.trsf", f"{name}.config={source}.config"))
         return name
+
+    def taken(self, value: ir.Expression) -> tuple[list[str], str]:
+        """What puts a point that is worked out into a variable, and the variable's name."""
+        e = self.expressions
+        if isinstance(value, ir.Name | ir.Index):
+            return [], e.storage(value)
+        helper = e.store.helper("pTaken", "pointRx", e.father(value))
+        return [f"{helper}={e.point(value)}"], helper
 
     # ---- assignments
 
@@ -292,14 +307,11 @@ class Statements:
             return self.written_out(target, value)
         if e.is_point(value) and e.father(value) == e.father(target):
             return self.say.lines("assign", target=name, value=e.point(value))
-        lines = []
+        lines: list[str] = []
         place, configuration = self.text(value), None
         if e.is_point(value):
-            source = e.point(value)
-            if not isinstance(value, ir.Name | ir.Index):
-                helper = e.store.helper("pTaken", "pointRx", e.father(value))
-                lines, source = [f"{helper}={source}"], helper
-                place = f"{source}.trsf"
+            lines, source = self.taken(value)
+            place = f"{source}.trsf"
             configuration = f"{source}.config"
         lines.append(f"{name}.trsf={place}")
         if configuration is not None:

@@ -6,6 +6,11 @@ import re
 
 import pytest
 from there_and_back import there_and_back
+from val3_helpers import ROBOT, application
+
+from rpl.cell import Cell, Input
+from rpl.diagnostics import Diagnostics
+from rpl.translation import translate_program
 
 JOINTS = "{A1 0,A2 20,A3 80,A4 0,A5 80,A6 0}"
 
@@ -106,3 +111,46 @@ def test_taught_points_of_programs_are_data_on_their_frame_with_their_posture() 
     found = sorted(re.findall(row, data))
     assert found == [("p1", "500", "righty", "uframe[1]"), ("p1_two", "550", "righty", "uframe[1]")]
     assert not re.search(r"p1\w*\.trsf=", journey.text)
+
+
+SEARCH = """MODULE job
+  PROC main()
+    VAR robtarget found;
+    MoveAbsJ [[0,0,0,0,90,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;
+    SearchL\\Stop,di1,found,[[350,0,450],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,tool0;
+    SetDO do1,1;
+  ERROR
+    SetDO do2,1;
+    TRYNEXT;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize(("touched", "outputs"), [(True, {1}), (False, {1, 2})], ids=["found", "not found"])
+def test_a_search_is_a_wait_beside_the_movement(touched: bool, outputs: set[int]) -> None:
+    """Movements go into a queue and the program goes on; resetMotion stops the robot and forgets what is left (VAL3
+    reference manual 5.3, chapters 9.2 and 9.4)."""
+    journey = there_and_back({"job.mod": SEARCH}, "rapid", "val3", "abb_irb120_3_58")
+    assert not journey.losses
+    assert "wait(di1 or isSettled())" in journey.text and "resetMotion()" in journey.text
+    cell = Cell(inputs=(Input(1.5, "di1", True),)) if touched else None
+    assert journey.switched_on(journey.run("main", cell)) == outputs
+
+
+def test_the_operator_acknowledges_a_message_by_a_key() -> None:
+    """getKey gives the key pressed last, -1 for none (VAL3 reference manual 5.3, user interface)."""
+    text = 'def job():\n  popup("No part", blocking=True)\n  set_digital_out(1, True)\nend\n'
+    journey = there_and_back({"job.script": text}, "urscript", "val3", "ur5e")
+    assert not journey.losses
+    assert 'putln("No part")\n  do\n    delay(0)\n  until getKey()!=-1\n' in journey.text
+
+
+def test_a_configuration_of_local_points_is_kept() -> None:
+    """A point that the program changes is data of its routine; what it begins with has its posture too."""
+    code = "l_pA={{380,-120,-100,180,0,0},{righty,epositive,wnegative}}\nl_pA.trsf.z=-90\nmovej(l_pA,tGrip,mStop)"
+    head = '<Locals><Local name="l_pA" type="pointRx" xsi:type="array" size="1" /></Locals>\n---\n'
+    found = Diagnostics()
+    files = translate_program(application(head + code), "val3", ROBOT, None, found).files
+    start = next(file.data.decode("utf-8-sig") for file in files if file.path == "start.pgx")
+    assert "l_pA.config.wrist=wnegative" in start

@@ -147,6 +147,8 @@ class _Waits:
     def needs_rest(self, statement: ir.Statement) -> bool:
         if isinstance(statement, _ACTS):
             return not (isinstance(statement, ir.Vendor) and statement.effect in ("none", "tuning"))
+        if isinstance(statement, ir.Move) and statement.search is not None:
+            return True  # the program looks while this movement alone is driven
         if isinstance(statement, ir.Assign) and _base(statement.target) in self.watched:
             return True
         return any(self.looks(part) for part in _own_parts(statement))
