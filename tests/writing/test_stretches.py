@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rpl.dialects.krl.configuration import KrlNotation
 
-from rpl import ir, registry, translation
+from rpl import ir, translation
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
 from rpl.ir.walk import walk
@@ -70,7 +71,7 @@ def rapid(parts: list[Rows], between: str) -> Source:
 
 _NONE = "[9E9,9E9,9E9,9E9,9E9,9E9]"
 ROBOT = "kuka_kr6r900sixx"
-NOTATION = registry.dialect("krl").notation()
+NOTATION = KrlNotation()
 BETWEEN = {
     krl: ("i=1", "; a remark", "$VEL.CP=0.1", "$APO.CDIS=20", "WAIT SEC 1", "$OUT[3]=TRUE", "HALT", "LIN_REL {X 5}"),
     krl_axes: ("i=1", "; a remark", "$VEL_AXIS[1]=20", "$OUT[3]=TRUE"),
