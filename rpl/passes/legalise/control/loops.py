@@ -7,7 +7,9 @@ While and Goto where they are lacking. Runs after the passes that make new loops
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
@@ -17,7 +19,7 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.counters import declared_loops, jumps_about, overwritten, used_outside_loops
 from rpl.passes.legalise.facts.effects import everything, is_constant, statements_in
-from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression
+from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression, usage_of
 from rpl.passes.legalise.rewriting.bodies import written_arguments
 from rpl.passes.legalise.rewriting.editing import (
     Editor,
@@ -38,8 +40,10 @@ from rpl.passes.scope import Scope
 def fit_loops(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the loop statements and rules of the target."""
 
+    assigned = cache(lambda: usage_of(program).assigned)
+
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        loops = _Loops(editor, routine)
+        loops = _Loops(editor, routine, assigned)
         return loops.without_counters(edit_bodies(routine, loops.body))
 
     return edit_routines(program, context, work)
@@ -55,8 +59,9 @@ class _Rule:
 
 
 class _Loops:
-    def __init__(self, editor: Editor, routine: ir.Routine) -> None:
+    def __init__(self, editor: Editor, routine: ir.Routine, assigned: Callable[[], set[str]]) -> None:
         self.editor = editor
+        self.assigned = assigned  # folded names that something in the program assigns
         self.has = editor.capabilities.statements
         # without WHILE the loops stay for the pass that makes labels of them
         self.labelled = "While" not in self.has and {"Goto", "Label"} <= self.has
@@ -162,7 +167,7 @@ class _Loops:
         if names & assigned_in(loop.body):
             return True
         calls = any(isinstance(one, ir.CallRoutine | ir.Call) for one in walk(*loop.body))
-        return calls and bool(names - set(self.local) - self.editor.own)
+        return calls and bool((names - set(self.local) - self.editor.own) & self.assigned())
 
     def inside(self, loop: ir.For) -> ir.Body:
         with self.editor.counting(loop):
