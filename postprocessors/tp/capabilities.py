@@ -164,7 +164,7 @@ CAPABILITIES = Capabilities(
             "JointsType": tables.PR,
             "ClockType": tables.TIMER,
         },
-        own=frozenset(bank for bank, _ in tables.SELECTED.values()),
+        own=frozenset((*(bank for bank, _ in tables.SELECTED.values()), tables.TIMED_OUT)),
         points=tables.POINTS,
     ),
 )

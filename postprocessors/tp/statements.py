@@ -543,7 +543,7 @@ class Printer(StatementPrinter[Line]):
         if found is not None:
             if found * 100 > tables.MOST_HUNDREDTHS:
                 raise CannotSayError(f"a wait has a limit of {tables.MOST_HUNDREDTHS / 100:g} s at most")
-            return f"({max(1, round(found * 100))})"
+            return str(max(1, round(found * 100)))
         inner = time.value if isinstance(time, ir.Quantity) else time
         factor = 100 * (ir.UNITS[time.unit] if isinstance(time, ir.Quantity) else 1.0)
         if factor == 1:

@@ -73,6 +73,7 @@ LAST_LABEL: Final = 32766
 MOST_TOOLS: Final = 9  # M: UTOOL[10] exists on newer controllers only
 MOST_FRAMES: Final = 9
 # The controller's tables of user frames and tools, by the system variable of the element in force.
+TIMED_OUT: Final = "rpl_timed_out"  # stands for the jump of a wait, and has no register
 SELECTED: Final[Mapping[str, tuple[str, int]]] = {"base": ("UFRAME", MOST_FRAMES), "tool": ("UTOOL", MOST_TOOLS)}
 
 SIGNALS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("numbered_signals"))

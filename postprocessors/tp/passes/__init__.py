@@ -10,6 +10,7 @@ from .components import read_components
 from .composition import compositions
 from .exactends import exact_ends
 from .framenumbers import frame_numbers
+from .limitedwaits import limited_waits
 from .longlogic import long_logic
 from .moveplaces import places_of_moves
 from .resetclocks import stopped_resets
@@ -24,5 +25,6 @@ PASSES: tuple[Placed, ...] = (
     Placed(read_components, "control", behind="fit_loops"),
     Placed(arguments_in_registers, "control", behind="fit_loops"),
     Placed(long_logic, "control", behind="fit_loops"),
+    Placed(limited_waits, "storage", before="unread_flags"),
 )
 LAST = (exact_ends,)

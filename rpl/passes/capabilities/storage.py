@@ -39,7 +39,7 @@ class Storage:
     """Where variables of a type (class name) are kept, when they have numbers and no names; types may share a bank."""
 
     own: frozenset[str] = frozenset()
-    """Arrays of the controller's own (frames by number), which keep their names."""
+    """Data of the controller's own (frames by number, an outcome that it jumps by), which keep their names."""
 
     points: Bank | None = None
     """Taught points that live in a routine."""

@@ -37,6 +37,7 @@ from rpl.passes.legalise.source.texts.textdecimals import text_decimals
 from rpl.passes.legalise.source.texts.textlengths import text_lengths
 from rpl.passes.legalise.source.texts.textorders import text_orders
 from rpl.passes.legalise.source.texts.wholetexts import whole_texts
+from rpl.passes.legalise.source.timedwaits import timed_waits
 from rpl.passes.legalise.source.untyped import drop_untyped
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
@@ -65,6 +66,7 @@ STAGE = Stage(
         step_times,
         load_variables,
         whole_times,
+        timed_waits,
         same_units,
         cyclic_flags,
         named_flags,

@@ -38,6 +38,7 @@ NOT_CAUGHT = code(
 )
 # Functions that are not defined for every number.
 _PARTIAL = frozenset(("sqrt", "log", "asin", "acos"))
+_JUMPS = frozenset(("Goto", "Label"))
 _DIVISION, _BOUND, _ARGUMENT = "division_by_zero", "out_of_range", "negative_argument"
 
 
@@ -304,6 +305,7 @@ class _Handling(_Passing):
         self.goes_on = any(isinstance(one, ir.TryNext) for one in everything_handled)
         self._variables: dict[str, ir.Name] = {}
         self.made = False
+        self.again = ""  # label of the statement that RETRY goes back to, where the target's people jump
 
     def variable(self, stem: str) -> ir.Name:
         if stem not in self._variables:
@@ -337,12 +339,14 @@ class _Handling(_Passing):
 
     def unit(self, steps: ir.Body) -> ir.Body:
         """One statement of the source: its steps, then the handler when one of them raised."""
-        core = self.core(steps)
         if not self.retries:
-            return core
+            return self.core(steps)
+        if self.editor.capabilities.statements >= _JUMPS and "Repeat" not in self.editor.capabilities.statements:
+            self.again = self.editor.context.fresh("retry")
+            return (ir.Label(self.again), *self.core(steps))
         again = self.variable("retry")
         start = ir.Assign(again, ir.BoolLiteral(False))
-        return (ir.Repeat(ir.Unary("not", again), (start, *core)),)
+        return (ir.Repeat(ir.Unary("not", again), (start, *self.core(steps))),)
 
     def core(self, steps: ir.Body) -> ir.Body:
         raising = [at for at, step in enumerate(steps) if self.raises(step)]
@@ -431,6 +435,8 @@ class _Handling(_Passing):
             head, rest = body[:at], body[at + 1 :]
             match statement:
                 case ir.Retry():
+                    if self.again:
+                        return (*head, *self.behind((ir.Goto(self.again, origin=statement.origin),), rest, falls=False))
                     again = ir.Assign(self.variable("retry"), ir.BoolLiteral(True), origin=statement.origin)
                     return (*head, *self.behind((again,), rest, falls=True))
                 case ir.TryNext():

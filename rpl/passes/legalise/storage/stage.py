@@ -13,6 +13,7 @@ from rpl.passes.legalise.storage.numbered import number_data
 from rpl.passes.legalise.storage.saidtwice import said_once
 from rpl.passes.legalise.storage.sharing import share_temporaries
 from rpl.passes.legalise.storage.spelling import one_spelling
+from rpl.passes.legalise.storage.unreadflags import unread_flags
 from rpl.passes.legalise.storage.unused import drop_idle_data, drop_unused
 
 STAGE = Stage(
@@ -21,6 +22,7 @@ STAGE = Stage(
         name_errors,
         ahead_readings,
         said_once,
+        unread_flags,
         drop_unused,
         begun_anew,
         points_of_modules,

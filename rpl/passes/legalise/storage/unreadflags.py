@@ -1,0 +1,59 @@
+"""What the passes have made and nothing reads in the end: flags of waits with a limit, numbers of errors that are
+handled where they come. It would take numbers and lines.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.effects import Effects
+from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.rewrite import rewrite_parts
+from rpl.source import NOWHERE
+
+
+@legalising(unless=lambda context: not context.capabilities.storage.banks)
+def unread_flags(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets where data takes numbers. Data of the source stays: people look at it."""
+    made = {
+        one.name.lower()
+        for module in program.modules
+        for declared in (module.declarations, *(routine.declarations for routine in module.routines))
+        for one in declared
+        if isinstance(one, ir.Variable) and one.origin is NOWHERE and one.storage == "variable"
+    }
+    named: Counter[str] = Counter()
+    written: Counter[str] = Counter()
+    flags: set[str] = set()
+    effects = Effects(program)
+    for node in walk(*program.modules):
+        match node:
+            case ir.Name(id=name):
+                named[name.lower()] += 1
+            case ir.Assign(target=ir.Name(id=name), value=value) if effects.safe(value):
+                written[name.lower()] += 1
+            case ir.WaitUntil(timed_out=ir.Name(id=name)):
+                written[name.lower()] += 1
+                flags.add(name.lower())
+    idle = {name for name in made | flags if written[name] and named[name] == written[name]}
+    return _without(program, idle) if idle else program
+
+
+def _without(program: ir.Program, idle: set[str]) -> ir.Program:
+    def change(statement: ir.Statement) -> ir.Body:
+        match statement:
+            case ir.Assign(target=ir.Name(id=name)) if name.lower() in idle:
+                return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
+            case ir.WaitUntil(timed_out=ir.Name(id=name)) if name.lower() in idle:
+                return (replace(statement, timed_out=None),)
+        return (rewrite_parts(statement, lambda expression: expression, lambda body: map_body(body, change)),)
+
+    return edit_all(program, lambda body: map_body(body, change))
+
+
+__all__ = ["unread_flags"]
