@@ -342,7 +342,7 @@ def _repeat(listing: Listing) -> None:
 
 def _is_bank(name: str) -> bool:
     upper = name.upper()
-    if upper in tables.BANKS or upper in _CONTROLLERS_OWN or upper.startswith("$"):
+    if upper in tables.BANKS or upper in _CONTROLLERS_OWN or upper.startswith("$") or name == tables.TIMED_OUT:
         return True
     bank = upper.rstrip("0123456789")
     return bank != upper and bank in (*tables.BANKS, "UTOOL", "UFRAME")

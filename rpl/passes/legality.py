@@ -167,7 +167,7 @@ def _of_routine(node: ir.Routine | ir.Parameter | ir.Variable, can: Capabilities
         case ir.Routine(returns=ir.StringType()) if RoutineRule.TEXT_RESULTS not in rules.rules:
             return "function that gives a text"
         case ir.Variable(name=name, type=type) if type.__class__.__name__ in can.storage.banks:
-            return "" if _NUMBERED.fullmatch(name) else "datum without a number"
+            return "" if _NUMBERED.fullmatch(name) or name in can.storage.own else "datum without a number"
     return ""
 
 

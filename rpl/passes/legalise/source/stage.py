@@ -22,6 +22,7 @@ from rpl.passes.legalise.source.places.keptangles import named_angles
 from rpl.passes.legalise.source.places.pulses import fold_pulses
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
+from rpl.passes.legalise.source.places.shiftedplaces import shifted_places
 from rpl.passes.legalise.source.precisions import precisions
 from rpl.passes.legalise.source.rates import rates
 from rpl.passes.legalise.source.readports import read_ports
@@ -74,6 +75,7 @@ STAGE = Stage(
         straight_splines,
         home_positions,
         fold_pulses,
+        shifted_places,
         neutral_functions,
         named_angles,
         rotation_vectors,
