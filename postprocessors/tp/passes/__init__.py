@@ -9,6 +9,7 @@ from .arguments import arguments_in_registers
 from .components import read_components
 from .composition import compositions
 from .exactends import exact_ends
+from .filledplaces import filled_places
 from .framenumbers import frame_numbers
 from .limitedwaits import limited_waits
 from .longlogic import long_logic
@@ -22,6 +23,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(places_of_moves, "settings", behind="stand_first"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(compositions, "records", behind="drop_unread_parameters"),
+    Placed(filled_places, "control", behind="fit_loops"),
     Placed(read_components, "control", behind="fit_loops"),
     Placed(arguments_in_registers, "control", behind="fit_loops"),
     Placed(long_logic, "control", behind="fit_loops"),

@@ -107,6 +107,10 @@ class _Places:
 
     def has_register(self, place: ir.Expression) -> bool:
         """Is it a place with a point or register of its own? One that is put together of numbers has none at a move."""
+        match place:
+            case ir.Builtin(function="offset" | "tool_offset", arguments=(base, *way)):
+                numbers = all(_is_number(constant(one, self.scope, self.unchanged)) for one in way)
+                return len(way) == 3 and numbers and isinstance(base, _PLAIN)
         return isinstance(place, _PLAIN) or constant(place, self.scope, self.unchanged) is not None
 
     def is_frame(self, name: ir.Name) -> bool:

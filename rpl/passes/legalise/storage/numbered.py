@@ -34,7 +34,7 @@ from rpl.passes.legalise.storage.banks import (
     main_types,
     sizes_of,
 )
-from rpl.passes.legalise.storage.points import Points
+from rpl.passes.legalise.storage.points import Points, poses_of_moves
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typewords import word_type
 from rpl.source import NOWHERE
@@ -86,7 +86,7 @@ class _Numbered(Rewriter):
         self.unchanged: Unchanged = unchanged_in(program)
         self.facts = _facts(program, self.scopes)
         self.numbers = Numbers(context, held(program, context.capabilities.storage.banks.values()))
-        self.points = Points(context, self.unchanged)
+        self.points = Points(context, self.unchanged, poses_of_moves(program, context))
         self.places: dict[int, Place] = {}
         self.declared: list[ir.Declaration] = []
         self.start: list[ir.Statement] = []
@@ -204,6 +204,7 @@ class _Numbered(Rewriter):
         if chosen:
             return False
         taught = isinstance(element, ir.TargetType | ir.JointsType) and self.points.is_taught(declaration, scope)
+        taught = taught or self.points.is_pose_of_moves(declaration, scope)
         if taught and self.context.capabilities.storage.points is not None:
             return True
         if isinstance(scope.resolve(declaration.type), ir.ArrayType) or declaration.storage != "constant":

@@ -6,12 +6,14 @@ move. Each routine numbers its own points: as an earlier translation did, as the
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import count
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.walk import walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant
@@ -65,12 +67,44 @@ def shown(value: ir.Expression) -> str:
     return type(value).__name__
 
 
+def poses_of_moves(program: ir.Program, context: Context) -> frozenset[str]:
+    """Folded names that stand nowhere but as the place that a move goes to, moved by a way or not, or as a value that is
+    copied whole, moved by x, y and z or not."""
+    at_moves = context.capabilities.places.move_functions
+    named: Counter[str] = Counter()
+    placed: Counter[str] = Counter()
+    for node in walk(*program.modules):
+        match node:
+            case ir.Name(id=name):
+                named[name.lower()] += 1
+            case ir.Move(target=target, relative=None):
+                head = _head(target, at_moves)
+                if isinstance(head, ir.Name):
+                    placed[head.id.lower()] += 1
+            case ir.Assign(value=ir.Name(id=name) | ir.Builtin(function="offset", arguments=(ir.Name(id=name), *_))):
+                placed[name.lower()] += 1
+    return frozenset(name for name, count in placed.items() if count == named[name])
+
+
+def _head(target: ir.Expression, at_moves: frozenset[str]) -> ir.Expression:
+    """The place itself of one that is moved by a way, as far as the target says that at the move."""
+    while True:
+        match target:
+            case ir.Builtin(function=how, arguments=(inner, *_)) if how in at_moves:
+                target = inner
+            case ir.Binary(op=how, left=inner) if how in at_moves:
+                target = inner
+            case _:
+                return target
+
+
 @dataclass(slots=True)
 class Points:
     """The points of one routine after the other."""
 
     context: Context
     unchanged: Unchanged
+    of_moves: frozenset[str] = frozenset()  # poses as `poses_of_moves` finds them
     made: list[ir.Variable] = field(default_factory=list)
     found: dict[object, ir.Name] = field(default_factory=dict)
     used: set[int] = field(default_factory=set)
@@ -94,9 +128,17 @@ class Points:
             return False
         return is_point(declaration.initial)
 
+    def is_pose_of_moves(self, declaration: ir.Variable, scope: Scope) -> bool:
+        """Is it a taught pose that is nothing but where moves go, or is copied whole?"""
+        if not isinstance(scope.resolve(declaration.type), ir.PoseType) or not self.is_taught(declaration, scope):
+            return False
+        return declaration.name.lower() in self.of_moves
+
     def named(self, expression: ir.Name, declaration: ir.Variable, scope: Scope) -> ir.Name | None:
         """The point for a variable."""
         type = scope.resolve(declaration.type)
+        if isinstance(type, ir.PoseType) and self.is_pose_of_moves(declaration, scope):
+            type = ir.TargetType(self.context.capabilities.places.notation)
         if not isinstance(type, _POSITIONS) or not self.is_taught(declaration, scope):
             return None
         value = declaration.initial
