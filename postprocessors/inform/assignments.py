@@ -9,7 +9,7 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .operands import Registers, bank_of, constant, element, is_digital, numbered, operand, signal, simple, variable
+from .operands import Registers, bank_of, constant, element, is_digital, operand, signal, simple, variable
 from .positions import Positions, rounded
 
 
@@ -282,18 +282,72 @@ class Assignments:
         if known is not None:
             self.lines.append(f"SETE {place} ({number}) {round(known * counts)}")
             return
-        match value:
-            case ir.Field(base=ir.Index() | ir.Name() as other, name=same) if not axis and component(same)[1] == counts:
-                source = element(other)
-                if source is not None and numbered(other) not in self.positions.constants.values:
-                    whole = self.registers.helper("D")
-                    self.lines.append(f"GETE {whole} {source} ({component(same)[0]})")
-                    self.lines.append(f"SETE {place} ({number}) {whole}")
-                    return
-        real, whole = self.registers.helper("R"), self.registers.helper("D")
-        self.number(real, value)
-        self.lines.append(f"MUL {real} {float(counts)!r}")
-        self.lines.extend([*rounded(real, whole), f"SETE {place} ({number}) {whole}"])
+        self.lines.append(f"SETE {place} ({number}) {self.counted(value, counts)}")
+
+    def counted(self, value: ir.Expression, counts: float) -> str:
+        """A variable with the value in counts of positions. Whole counts stay such, other parts are rounded."""
+        terms = summands(value)
+        whole = self.registers.helper("D")
+        began = False
+        for sign, term in sorted(terms, key=lambda one: self.order(one[1], counts)):
+            known = constant(term)
+            if known is not None and began:
+                if round(known * counts):
+                    self.lines.append(f"{'ADD' if sign > 0 else 'SUB'} {whole} {round(known * counts)}")
+                continue
+            if began:
+                more = self.registers.helper("D")
+                self.count(more, term, counts)
+                self.lines.append(f"{'ADD' if sign > 0 else 'SUB'} {whole} {more}")
+                continue
+            self.count(whole, term, counts)
+            if sign < 0:
+                self.lines.append(f"MUL {whole} -1")
+            began = True
+        return whole
+
+    def order(self, term: ir.Expression, counts: float) -> int:
+        """What is whole counts comes first, constants come last."""
+        if constant(term) is not None:
+            return 2
+        place = simple(term)
+        whole = place is not None and bank_of(place) in tables.WHOLE and counts == int(counts)
+        return 0 if whole or self.component_read(term, counts) is not None else 1
+
+    def component_read(self, term: ir.Expression, counts: float) -> tuple[ir.Expression, int] | None:
+        """The place and number of a component that is counted in the same unit, and is no number that is known."""
+        match term:
+            case ir.Field(base=base, name=name) if not axis_of(name):
+                number, unit = component(name)
+                constants = self.positions.constants
+                known = None if constants.name(base) else constants.known(base)
+                return (base, number) if unit == counts and known is None else None
+        return None
+
+    def count(self, whole: str, term: ir.Expression, counts: float) -> None:
+        """whole := the term in counts."""
+        read, place = self.component_read(term, counts), simple(term)
+        if read is not None:
+            self.lines.append(f"GETE {whole} {self.positions.as_variable(read[0])} ({read[1]})")
+        elif place is not None and bank_of(place) in tables.WHOLE and counts == int(counts):
+            self.lines.extend([f"SET {whole} {place}", f"MUL {whole} {int(counts)}"])
+        else:
+            real = self.registers.helper("R")
+            self.number(real, term)
+            self.lines.append(f"MUL {real} {float(counts)!r}")
+            self.lines.extend(rounded(real, whole))
+
+
+def summands(value: ir.Expression, sign: int = 1) -> list[tuple[int, ir.Expression]]:
+    """What a sum adds and takes away."""
+    match value:
+        case ir.Binary(op="+" | "-" as op, left=left, right=right):
+            return [*summands(left, sign), *summands(right, sign if op == "+" else -sign)]
+        case ir.Unary(op="-", operand=operand):
+            return summands(operand, -sign)
+        case ir.Convert(how="real", operand=operand):
+            return summands(operand, sign)
+    return [(sign, value)]
 
 
 def component(name: str) -> tuple[int, int]:

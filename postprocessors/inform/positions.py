@@ -22,7 +22,7 @@ class Positions:
     job: Job
     constants: Constants
     lines: list[str] = field(default_factory=list)
-    number: Callable[[str, ir.Expression], None] | None = None  # prints the value of a number
+    counted: Callable[[ir.Expression, float], str] | None = None  # a variable with a value in counts of positions
     changes: int = 0  # how often variables other than helpers have been changed
     in_tools: dict[int, str] = field(default_factory=dict)  # tool -> the variable whose value it has just got
 
@@ -139,12 +139,10 @@ class Positions:
 
     def element(self, place: str, number: int, value: ir.Expression) -> None:
         """SETE of a computed component."""
-        if self.number is None:
+        if self.counted is None:
             raise CannotSayError("a computed component")
-        counts = 1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT)
-        real, whole = self.registers.helper("R"), self.registers.helper("D")
-        self.number(real, value)
-        self.lines += [f"MUL {real} {counts:.1f}", *rounded(real, whole), f"SETE {place} ({number}) {whole}"]
+        counts = round(1 / (tables.MM_PER_COUNT if number <= 3 else tables.DEG_PER_COUNT))
+        self.lines.append(f"SETE {place} ({number}) {self.counted(value, counts)}")
 
     def current(self, place: str, arguments: tuple[ir.Expression, ...]) -> None:
         """Where the tool is, in a frame."""

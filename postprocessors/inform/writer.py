@@ -218,7 +218,7 @@ class _Writer:
         constants = self.constants.routine(routine)
         positions = Positions(self.registers, job, constants)
         assignments = Assignments(self.registers, positions)
-        positions.number = assignments.number
+        positions.counted = assignments.counted
         motion = Motion(positions, assignments.number, self.diagnostics)
         motion.names = {name: int(name[1:]) for name in constants.points if name[:1] == "C" and name[1:].isdigit()}
         motion.corners = self.corners and not self.registers.jobs
@@ -268,7 +268,7 @@ class _Writer:
         """The values that data have before the program."""
         positions = Positions(self.registers, job, self.constants)
         assignments = Assignments(self.registers, positions)
-        positions.number = assignments.number
+        positions.counted = assignments.counted
         done = []
         for number in filled(self.program):
             begin = Position("joints" if number in self.constants.joints else "pose", WORLD)

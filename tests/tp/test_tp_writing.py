@@ -91,7 +91,7 @@ FLOW = [
     ("WAIT UNTIL di[1] AND NOT di[2]", ["WAIT DI[1]=ON AND DI[2]=OFF"]),
     ("WAIT UNTIL R[1] > 3.0 OR di[1] AND di[2]", ["WAIT (R[1]>3 OR (DI[1] AND DI[2]))"]),
     ("WAIT UNTIL di[1] TIMEOUT 5 s FLAG F[7]",
-     ["$WAITTMOUT=(500)", "F[7]=(ON)", "WAIT DI[1]=ON TIMEOUT,LBL[1]", "F[7]=(OFF)", "LBL[1]"]),
+     ["$WAITTMOUT=500", "F[7]=(ON)", "WAIT DI[1]=ON TIMEOUT,LBL[1]", "F[7]=(OFF)", "LBL[1]"]),
     ('MESSAGE "hello operator"', ["MESSAGE[hello operator]"]),
     ("START TASK other()", ["RUN OTHER"]),
 ]  # fmt: skip

@@ -123,10 +123,17 @@ class _Steps(Hoister):
             before = (*before, *further)
             if is_operand(value):
                 return before, value
-        name = self.temporary(type)
+        name = self.further(value, type) or self.temporary(type)
         if isinstance(type, ir.BoolType) and self.by_steps and isinstance(value, ir.Unary | ir.Binary | ir.Convert):
             return (*before, *self.decided(name, value)), name
         return (*before, ir.Assign(name, value)), name
+
+    def further(self, value: ir.Expression, type: ir.Type) -> ir.Name | None:
+        """The variable of the step before, where this one calculates on with it: nothing else reads it."""
+        match value:
+            case ir.Binary(op="+" | "-" | "*" | "/", left=ir.Name() as left, right=right) if (type, left) in self.lent:
+                return left if is_operand(right) and left != right else None
+        return None
 
     def numbered(self, value: ir.Expression) -> Lowered:
         """An element or a signal whose number is itself an element with a computed number: that is kept before."""

@@ -68,8 +68,8 @@ def shown(value: ir.Expression) -> str:
 
 
 def poses_of_moves(program: ir.Program, context: Context) -> frozenset[str]:
-    """Folded names that stand nowhere but as the place that a move goes to, moved by a way or not, or as a value that is
-    copied whole, moved by x, y and z or not."""
+    """Folded names that stand nowhere but as the place that a move goes to or as a value that is copied whole, both
+    moved by a way or not."""
     at_moves = context.capabilities.places.move_functions
     named: Counter[str] = Counter()
     placed: Counter[str] = Counter()
