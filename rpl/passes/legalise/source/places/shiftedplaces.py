@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
+from rpl.passes.capabilities import RoutineRule
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import repeatable
@@ -20,7 +21,9 @@ from rpl.passes.scope import ProgramScope, Scope
 _LENGTHS = ("m", "cm", "mm")
 
 
-@legalising(unless=lambda context: context.capabilities.routines.functions, sees=("function pose_sum",))
+@legalising(
+    unless=lambda context: RoutineRule.FUNCTIONS in context.capabilities.routines.rules, sees=("function pose_sum",)
+)
 def shifted_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without functions. A function that only gives such a place is written where it is called."""
     scopes = ProgramScope(program)
