@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rpl.runtime.chain import Planning, frames_of
+from rpl.runtime.chain import Planning, frames_of, is_joints
 from rpl.runtime.orders import BlendOrder, Order, Programmed
 
 if TYPE_CHECKING:
@@ -49,14 +49,16 @@ def programmed_of(order: Order, request: MoveRequest, plan: Planning, planned: P
 
 
 def _frames(order: Order, plan: Planning) -> tuple[rigid.Pose | None, rigid.Pose | None]:
-    """Tool and work object that the program has given; external axes move the latter, which is not counted here."""
+    """Tool and work object that the program has given; external axes move the latter, which is not counted here. A move
+    to joint values is seen from no work object, whatever it names or is set."""
     frames = frames_of(order.tool, order.frame, plan.modal, order.modal, plan.scene, plan.external)
     given = {"tool": order.tool, "base": order.frame}
     tool, frame = (
         given[name] is not None or order.modal.get(name) is not None or plan.modal.get(name) is not None
         for name in ("tool", "base")
     )
-    return frames.tool if tool else None, frames.frame if frame and not frames.stationary else None
+    seen = frame and not frames.stationary and not is_joints(order.target)
+    return frames.tool if tool else None, frames.frame if seen else None
 
 
 def _says(name: str, order: Order, plan: Planning) -> bool:

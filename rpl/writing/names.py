@@ -67,11 +67,22 @@ def rename_hiding(program: ir.Program, rules: NameRules) -> tuple[ir.Program, di
 def _started(program: ir.Program, collector: _Collector) -> dict[str, str]:
     """The routine `main` to the name of its module, where nothing else of the program has either name."""
     mains = [(one.name, module.name) for module in program.modules for one in module.routines if _is_main(one.name)]
+    if not mains:  # a name that is the module's in the letters that its language has (V+ `pick.place`)
+        mains = [
+            (one.name, module.name)
+            for module in program.modules
+            for one in module.routines
+            if one.name.lower() != module.name.lower() and _in_letters(one.name) == _in_letters(module.name)
+        ]
     if len(mains) != 1:
         return {}
     [(name, module)] = mains
     own = [one.lower() for one in collector.declared]
     return {} if module.lower() in own or own.count(name.lower()) > 1 else {name: module}
+
+
+def _in_letters(name: str) -> str:
+    return "".join(sign if sign.isalnum() else "_" for sign in name.lower())
 
 
 def _is_main(name: str) -> bool:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
+from .constants import constant_data
 from .motiondata import named_motion_data
 
-PASSES: tuple[Placed, ...] = (Placed(named_motion_data, "settings", behind="stand_first"),)
+PASSES: tuple[Placed, ...] = (
+    Placed(constant_data, "source", behind="kept_values_known"),
+    Placed(named_motion_data, "settings", behind="stand_first"),
+)

@@ -1,5 +1,6 @@
 """What the source's own routines note down and nothing reads (KRL FDAT_ACT, $H_POS once calls of BAS are evaluated):
-the assignments go, and data of the program in records of the prelude that nothing mentions any more goes with them.
+the assignments go, and data of the program in records of the prelude that nothing mentions any more goes with them. So
+does what passes keep for a question that nobody asks (the number of the latest error).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.facts.mentioned import is_linked, mentioned
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.support import SUPPORT
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 
@@ -30,11 +32,12 @@ def without_bookkeeping(program: ir.Program, context: Context) -> ir.Program:
 
 
 def _idle(program: ir.Program, context: Context) -> frozenset[str]:
-    """Variables of the prelude (folded) that are only ever the place of an assignment."""
+    """Variables of the prelude and of what passes have brought along (folded) that are only ever the place of an
+    assignment."""
     own = [
         one
         for module in program.modules
-        if is_linked(module, context)
+        if is_linked(module, context) or module.name.lower().startswith(SUPPORT)
         for one in module.declarations
         if isinstance(one, ir.Variable)
     ]

@@ -23,7 +23,7 @@ from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.settings import carriedframes
 from rpl.passes.legalise.settings.modal import DROPPED, JOINT_BLEND
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
-from rpl.passes.legalise.settings.usualplaces import TURNING, usual_places, usual_turns
+from rpl.passes.legalise.settings.usualplaces import TURNING, turns_as_usual, usual_places, usual_turns
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts
@@ -81,7 +81,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
-    quiet, below = _quiet(program), assigned_below(program)
+    quiet, below, turns = _quiet(program), assigned_below(program), not turns_as_usual(program)
     restless = not quiet.issuperset(name.lower() for name in reactions(program))
     modules = []
     for module in program.modules:
@@ -90,7 +90,8 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
             if looks_ahead and routine.name.lower() in entries and routine.body:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
-            worker = Modal(context, scopes.routine(module, routine), assigned, reported, usual, quiet, below, restless)
+            scope = scopes.routine(module, routine)
+            worker = Modal(context, scope, assigned, reported, usual, quiet, below, restless, turns)
             routines.append(edit_bodies(routine, worker.whole))
         modules.append(replace(module, routines=tuple(routines)))
     return _with_least(replace(program, modules=tuple(modules)), context)
@@ -140,10 +141,12 @@ class Modal:
         quiet: frozenset[str] = frozenset(),
         below: Mapping[str, set[str]] | None = None,
         restless: bool = False,
+        turns: bool = True,
     ) -> None:
         self.context, self.can, self.scope = context, context.capabilities, scope
         self.assigned, self.reported = assigned, reported
         self.usual, self.quiet, self.below = usual, quiet, below or {}
+        self.turns = turns  # does any move say how fast the tool turns?
         self.restless = restless  # an interrupt may set what is modal between any two statements
         self.brakes = _BRAKES & self.can.system_variables
         ours = rules_of(context.source).advance
@@ -422,7 +425,7 @@ class Modal:
             return
         if path is not None:
             wanted["path_speed"] = _quantity(path, "mm/s")
-        if rotation is not None:
+        if rotation is not None and self.turns:
             wanted["swivel_speed"] = _quantity(rotation, "deg/s")
             wanted["twist_speed"] = _quantity(rotation, "deg/s")
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.modalflow import Flow, State
 from rpl.passes.legalise.places.circles import has_arcs
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
@@ -24,6 +24,8 @@ from rpl.passes.legalise.settings.tooldata import PLACES, tool_of, work_object_o
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT, ZONE_PROPORTIONS
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
 from rpl.source import Origin
 
 JOINT_SPEED = code(
@@ -150,6 +152,8 @@ class _Explicit:
         self.task = program.modules[0].task  # that moves; what it has set is not known in one beside it
         self.follows = True
         self.poses = _global_poses(program)
+        self.scopes = ProgramScope(program)
+        self.scope: Scope | None = None
 
     # ---- generated data
 
@@ -210,6 +214,7 @@ class _Explicit:
 
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         self.follows = module.task == self.task
+        self.scope = self.scopes.routine(module, routine)
         return edit_bodies(routine, self.body)
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -320,6 +325,11 @@ class _Explicit:
 
     # ---- moves
 
+    def to_joints(self, move: ir.Move) -> bool:
+        """Does it go to joint values? They are seen from no frame."""
+        scope = self.scope
+        return scope is not None and isinstance(type_of(move.target, scope), ir.JointsType)
+
     def move(self, move: ir.Move, known: Environment) -> list[ir.Statement]:
         before: list[ir.Statement] = []
         own: dict[str, ir.Expression] = {}
@@ -329,7 +339,7 @@ class _Explicit:
                 if place.name not in _MODAL:
                     self.report_once(DROPPED, move, place.name, name=place.name.replace("_", " "))
         tool = move.tool or self.modal_data("tool")
-        frame = move.frame or self.modal_data("base")
+        frame = move.frame or (None if self.to_joints(move) else self.modal_data("base"))
         later = replace(move.origin, comments=())
         said = {place.name: value for place, value in move.settings if isinstance(place, ir.System)}
         if "tool" in own and self.is_datum(said["tool"]):

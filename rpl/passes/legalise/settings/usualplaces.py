@@ -22,6 +22,10 @@ def usual_places(program: ir.Program) -> frozenset[str]:
     )
 
 
+# Below it, deg/s, somebody wants slow turns.
+_CHOSEN_TURN_DEG_S = 100.0
+
+
 def usual_turns(program: ir.Program, context: Context) -> frozenset[str]:
     """Turning speeds, where some moves say theirs by itself and no statement sets it: the others have the usual one."""
     known = TURNING & context.capabilities.system_variables & rules_of(context.target).system_defaults.keys()
@@ -33,3 +37,25 @@ def usual_turns(program: ir.Program, context: Context) -> frozenset[str]:
             case ir.Move(speed=ir.Speed(rotation=rotation, path=None, profile=None)) if rotation is not None:
                 said = True
     return frozenset(known) if said else frozenset()
+
+
+def turns_as_usual(program: ir.Program) -> bool:
+    """Do all speeds let the tool turn as fast as predefined ones do, and does no move turn in place? Then its path says
+    how fast it is, and the turning speed is no setting that anybody has made."""
+    for node in walk(*program.modules):
+        match node:
+            case ir.Speed(rotation=rotation) if rotation is not None:
+                return False
+            case ir.Assign(target=ir.Field(name="rotation")):
+                return False
+            case ir.Aggregate(type_name="speed", entries=((_, _), (_, turning), *_)) if not _is_fast(turning):
+                return False
+            case ir.Builtin(function="offset" | "tool_offset", arguments=(_, x, y, z, *_)) if all(
+                isinstance(one, ir.RealLiteral | ir.IntLiteral) and one.value == 0 for one in (x, y, z)
+            ):
+                return False
+    return True
+
+
+def _is_fast(turning: ir.Expression) -> bool:
+    return isinstance(turning, ir.RealLiteral | ir.IntLiteral) and turning.value >= _CHOSEN_TURN_DEG_S

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from rpl.passes.legalise.stages import Clause, Stage
+from rpl.passes.legalise.errors.bookkeeping import without_bookkeeping
+from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.storage.aheadreadings import ahead_readings
 from rpl.passes.legalise.storage.begunanew import begun_anew
 from rpl.passes.legalise.storage.errorcodes import name_errors
@@ -23,6 +24,7 @@ STAGE = Stage(
         ahead_readings,
         said_once,
         unread_flags,
+        again(without_bookkeeping, "errors and conditions of handlers are settled behind it"),
         drop_unused,
         begun_anew,
         points_of_modules,

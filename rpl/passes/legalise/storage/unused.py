@@ -9,6 +9,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.parameters import ARGUMENTS
 from rpl.passes.legalise.facts.mentioned import called_as, is_linked, is_system_data, mentioned
+from rpl.passes.legalise.rewriting.support import SUPPORT
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 
@@ -50,7 +51,7 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
         _tell_left_out(module, gone, context)
         declarations = tuple(one for one in module.declarations if id(one) not in gone)
         routines = tuple(one for one in module.routines if id(one) not in gone)
-        if declarations or routines or not is_linked(module, context):
+        if declarations or routines or not (is_linked(module, context) or _is_support(module)):
             modules.append(replace(module, declarations=declarations, routines=routines))
     return replace(program, modules=tuple(modules))
 
@@ -72,10 +73,16 @@ def drop_idle_data(program: ir.Program, context: Context) -> ir.Program:
 
 
 def _is_generated(one: ir.Declaration, module: ir.Module, context: Context) -> bool:
-    """Part of a linked prelude, or a record that stands for a built-in type. Names of signals stay, for programs use
-    signals by their numbers too."""
+    """Part of a linked prelude, data that passes have brought along, or a record that stands for a built-in type. Names
+    of signals stay, for programs use signals by their numbers too."""
     record = isinstance(one, ir.RecordDeclaration) and one.name.startswith("rpl_")
+    if _is_support(module) and isinstance(one, ir.Variable):
+        return True
     return record or (is_linked(module, context) and not isinstance(one, ir.SignalDeclaration))
+
+
+def _is_support(module: ir.Module) -> bool:
+    return module.name.lower().startswith(SUPPORT)
 
 
 def _tell_left_out(module: ir.Module, gone: set[int], context: Context) -> None:

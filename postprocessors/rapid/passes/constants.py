@@ -1,0 +1,41 @@
+"""Data that begins with a value and that nothing assigns is `CONST`, as people write it: numbers at the module's head,
+taught points (the pendant modifies positions of constants as well) and joint positions. Tools and work objects stay
+`PERS`, which RAPID asks of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.walk import unchanged_in
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.rewrite import changed
+
+__all__ = ["constant_data"]
+
+_TYPES = (ir.IntType, ir.RealType, ir.BoolType, ir.TargetType, ir.JointsType)
+
+
+@legalising()
+def constant_data(program: ir.Program, context: Context) -> ir.Program:
+    """Only data of modules that one task has, and that no data list sets besides."""
+    unchanged = unchanged_in(program)
+    changes = unchanged.assigned | set(unchanged.initialised)
+    changes |= {node.counter.lower() for node in walk(*program.modules) if isinstance(node, ir.For)}
+    tasks = {module.task for module in program.modules}
+
+    def declared(one: ir.Declaration) -> ir.Declaration:
+        match one:
+            case ir.Variable(storage="variable" | "persistent", initial=initial, type=type) if (
+                initial is not None and isinstance(type, _TYPES) and one.name.lower() not in changes
+            ):
+                return replace(one, storage="constant")
+        return one
+
+    if len(tasks) > 1:  # what several tasks share has to be persistent
+        return program
+    modules = (changed(module, declarations=tuple(map(declared, module.declarations))) for module in program.modules)
+    return changed(program, modules=tuple(modules))
