@@ -6,8 +6,10 @@ from rpl.passes.legalise.stages import Placed
 
 from .constants import constant_data
 from .motiondata import named_motion_data
+from .placedata import places_as_targets
 
 PASSES: tuple[Placed, ...] = (
-    Placed(constant_data, "source", behind="kept_values_known"),
+    Placed(places_as_targets, "source", behind="rotation_vectors"),
+    Placed(constant_data, "source", behind="rotation_vectors"),
     Placed(named_motion_data, "settings", behind="stand_first"),
 )

@@ -65,6 +65,8 @@ class _Worker:
             return zyz_pose(arguments[:3], arguments[3:], known)
         if name in ZYZ_PARTS:
             return self.made("zyz_part", *arguments, ir.IntLiteral(ZYZ_PARTS.index(name) + 1))
+        if name == "pose_sum" and (shifted := _shifted(*arguments)) is not None:
+            return shifted
         if name in _MAKERS:
             return self.made(name, *arguments)
         return node
@@ -109,6 +111,15 @@ def _pose(arguments: tuple[ir.Expression, ...]) -> ir.Aggregate | None:
     angles = _angles(known)
     turned = [ir.RealLiteral(rigid.clean(angle)) for angle in angles]
     return ir.Aggregate(tuple(zip(ir.POSE, (*arguments[:3], *turned), strict=True)), "pose")
+
+
+def _shifted(one: ir.Expression, other: ir.Expression) -> ir.Expression | None:
+    """The sum of two poses of which one does not turn: the other one is shifted in its frame."""
+    for shift, place in ((one, other), (other, one)):
+        parts = dict(shift.entries) if isinstance(shift, ir.Aggregate) else {}
+        if set(ir.POSE) <= set(parts) and all(_number(parts[name]) == 0.0 for name in ir.ANGLES):
+            return ir.Builtin("offset", (place, *(parts[name] for name in ("x", "y", "z"))))
+    return None
 
 
 def _angles(vector: list[float]) -> tuple[float, float, float]:
