@@ -5,6 +5,7 @@ from __future__ import annotations
 from rpl.passes.legalise.stages import Placed
 
 from .constants import constant_data
+from .finestops import fine_stops
 from .motiondata import named_motion_data
 from .placedata import places_as_targets
 
@@ -12,4 +13,5 @@ PASSES: tuple[Placed, ...] = (
     Placed(places_as_targets, "source", behind="rotation_vectors"),
     Placed(constant_data, "source", behind="rotation_vectors"),
     Placed(named_motion_data, "settings", behind="stand_first"),
+    Placed(fine_stops, "settings", behind="stand_first"),
 )

@@ -2,7 +2,8 @@
 
 While the setting is on, a move at half of the full speed speeds up and brakes with half of what the program says. A
 target without it is told the percentages of each move; where they hang on the run, or are less than the target takes,
-this is reported. A target whose programs start with the setting on gets it switched off first.
+this is reported. Where the program itself says nothing of accelerations, and the target would need statements around
+each move, they are left to the arm, which is said. A target whose programs start with the setting on gets it switched off first.
 """
 
 from __future__ import annotations
@@ -31,7 +32,16 @@ LEAST = code(
     "the move speeds up with {percent:g} percent at its speed in the source; the target takes {least:g} at the least",
     "times of short moves and corners come out otherwise: look at them on the robot",
 )
+USUAL = code(
+    "acceleration-usual",
+    Severity.WARNING,
+    "the source's controller scales the acceleration by the programmed speed without being told; the target "
+    "accelerates as its arm does",
+    "times of short moves and corners come out otherwise: set the acceleration at the head of the program if the load "
+    "asks for it",
+)
 SETTING, UP, DOWN = "scale_acceleration", "acceleration_percent", "deceleration_percent"
+_TIMED = (ir.DeclareInterrupt, ir.OrderInterrupt, ir.ControlInterrupt, ir.TaskControl, ir.Trigger)
 _USUAL_MM_S, _FULL, _LEAST_SHARE = 250.0, 100.0, 1e-3
 
 
@@ -89,9 +99,27 @@ class _Shares:
                 self.report(UNKNOWN, move, "")
         if not known:
             return self.without(SETTING)
+        if scaled and self.is_silent():
+            self.report(USUAL, next(move for move in moves if shares[id(move)] != 1.0), "")
+            return self.without(SETTING)
         said = {id(move): self.said(move, shares[id(move)] or 1.0) for move in moves} if scaled else {}
         program = rewrite(self.source, lambda node: said.get(id(node), node))
         return self.without(SETTING, UP, DOWN, program=program) if scaled else self.without(SETTING)
+
+    def is_silent(self) -> bool:
+        """Does no statement say anything of accelerations, where the target has no word for that of one move? People
+        write none around each move because another controller has a rule of its own. What happens beside the moves
+        may hang on their times, so that these stay."""
+        can = self.context.capabilities
+        modal = can.system_variables & {UP, "joint_acceleration"} and not (
+            can.settings.of_moves and UP not in can.system_variables
+        )
+        said = any(
+            _sets(node, UP, DOWN, SETTING) or (isinstance(node, ir.Move) and node.acceleration is not None)
+            for node in walk(*self.source.modules)
+        )
+        timed = any(isinstance(node, _TIMED) for node in walk(*self.source.modules))
+        return bool(modal) and not said and not timed
 
     def share(self, move: ir.Move) -> float | None:
         """What the move's speed makes of its accelerations; None where that hangs on the run."""

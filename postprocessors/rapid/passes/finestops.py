@@ -1,0 +1,39 @@
+"""A move with a corner behind which the program waits for the robot at once is one with `fine`: there is no corner, and
+RAPID's program waits at `fine` by itself. It comes from languages whose moves are joined unless the next statement says
+otherwise (V+ BREAK).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rpl import ir
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.rewrite import rewrite_parts
+
+__all__ = ["fine_stops"]
+
+
+@legalising(sees=("WaitForMotion",))
+def fine_stops(program: ir.Program, context: Context) -> ir.Program:
+    """Only right behind the move; what is attached to the corner needs it."""
+    return edit_all(program, _body)
+
+
+def _body(body: ir.Body) -> ir.Body:
+    done: list[ir.Statement] = []
+    for statement in body:
+        last = done[-1] if done else None
+        if isinstance(statement, ir.WaitForMotion) and isinstance(last, ir.Move) and _can_stop(last):
+            done[-1] = replace(last, blend=ir.BlendStop())
+            if statement.origin.comments:
+                done.append(ir.Nothing(origin=statement.origin))
+        else:
+            done.append(rewrite_parts(statement, lambda expression: expression, _body))
+    return tuple(done)
+
+
+def _can_stop(move: ir.Move) -> bool:
+    return not move.concurrent and not move.triggers and move.search is None
