@@ -3,7 +3,8 @@
 While the setting is on, a move at half of the full speed speeds up and brakes with half of what the program says. A
 target without it is told the percentages of each move; where they hang on the run, or are less than the target takes,
 this is reported. Where the program itself says nothing of accelerations, and the target would need statements around
-each move, they are left to the arm, which is said. A target whose programs start with the setting on gets it switched off first.
+each move, they are left to the arm, which is said. A target whose programs start with the setting on gets it switched
+off first.
 """
 
 from __future__ import annotations
