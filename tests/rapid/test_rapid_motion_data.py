@@ -85,7 +85,7 @@ def test_numbered_tools_and_frames_have_their_names_or_numbers() -> None:
     read = read_sources([source_from_text(name, text) for name, text in files.items()], "krl", Diagnostics())
     done = translate_program(read, "rapid", "kuka_kr6r900sixx", None, Diagnostics())
     text = "\n".join(file.data.decode() for file in done.files)
-    assert moves(text) == ["vmax,fine,tool1\\WObj:=wobj2;", "v300,fine,tool1\\WObj:=wobj2;"], text
+    assert moves(text) == ["vmax,fine,tool1;", "v300,fine,tool1\\WObj:=wobj2;"], text
     assert "PERS tooldata tool1:=[TRUE,[[0,0,150]," in text and "BASE_DATA" not in text
     assert 'PERS wobjdata wobj2:=[FALSE,TRUE,"",[[350,150,20],' in text
 

@@ -8,6 +8,7 @@ from .changedplaces import changed_places
 from .groups import name_groups
 from .polledahead import polled_ahead
 from .roomytexts import roomy_texts
+from .shifts import said_shifts
 from .signalnames import signals_by_name
 from .startbases import start_bases
 
@@ -15,6 +16,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(changed_places, "source", behind="whole_settings"),
     Placed(name_groups, "io", behind="number_signals"),
     Placed(start_bases, "settings", behind="explicit_to_modal"),
+    Placed(said_shifts, "settings", behind="stand_first"),
     Placed(polled_ahead, "storage", behind="ahead_readings"),
     Placed(roomy_texts, "storage", behind="one_spelling"),
     Placed(signals_by_name, "storage", behind="one_spelling"),

@@ -6,9 +6,11 @@ Only what the kind of move is driven by is set. A least duration has no modal co
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
@@ -28,17 +30,36 @@ def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose speeds are all modal; spline moves have settings of their own there."""
     flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
     reported: set[str] = set()
+    always = _said_by_all(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        worker = _Around(editor, flow, reported)
+        worker = _Around(editor, flow, reported, always)
         return edit_bodies(routine, worker.body)
 
     return edit_routines(program, context, work)
 
 
+def _said_by_all(program: ir.Program) -> frozenset[str]:
+    """Settings that each move which is driven by them says itself, and that nothing else asks for or sets: nothing has
+    to be set back behind a move."""
+    found = _JOINT | _PATH
+    for node in walk(*program.modules):
+        match node:
+            case ir.Move(motion_class="classic", kind=kind, settings=settings):
+                own = {place.name for place, _ in settings if isinstance(place, ir.System)}
+                found -= (_JOINT if kind == "joint" else _PATH) - own
+                found -= {one.name for _, value in settings for one in walk(value) if isinstance(one, ir.System)}
+            case ir.Move() | ir.Spline() | ir.MoveExternal() | ir.Vendor() | ir.Opaque():
+                return frozenset()
+    asked = Counter(node.name for node in walk(*program.modules) if isinstance(node, ir.System))
+    moves = (node for node in walk(*program.modules) if isinstance(node, ir.Move))
+    asked.subtract(place.name for move in moves for place, _ in move.settings if isinstance(place, ir.System))
+    return frozenset(name for name in found if not asked[name])
+
+
 class _Around:
-    def __init__(self, editor: Editor, flow: Flow, reported: set[str]) -> None:
-        self.editor, self.flow, self.reported = editor, flow, reported
+    def __init__(self, editor: Editor, flow: Flow, reported: set[str], always: frozenset[str]) -> None:
+        self.editor, self.flow, self.reported, self.always = editor, flow, reported, always
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -88,6 +109,9 @@ class _Around:
         before: list[ir.Statement],
         behind: list[ir.Statement],
     ) -> None:
+        if place.name in self.always:
+            before.append(ir.Assign(place, value))
+            return
         old = self.flow.at(move).get(place.name)
         if place.name in _TURNING:
             old = ir.EnumLiteral(USUAL[place.name])

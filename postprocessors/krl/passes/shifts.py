@@ -1,0 +1,111 @@
+"""Shifts of places as people write them in KRL, which has no function for them: a constant one is a frame of the data
+list in front of the place (`LIN shift_z100:XPick`; behind it where it goes along the tool), a computed one is the place
+with other components (`Box=XCorner`, `Box.X=XCorner.X+...`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rpl import ir
+from rpl.ir.walk import walk
+from rpl.passes.fold import constant_number
+from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.headdata import with_data
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+from rpl.passes.typing import type_of
+
+__all__ = ["said_shifts"]
+
+_PARTS = ("x", "y", "z")
+
+
+@legalising(sees=("function offset", "function tool_offset"))
+def said_shifts(program: ir.Program, context: Context) -> ir.Program:
+    """What is neither stays a function."""
+    worker, scopes = _Shifts(context), ProgramScope(program)
+    modules = []
+    for module in program.modules:
+        routines = []
+        for routine in module.routines:
+            worker.scope = scopes.routine(module, routine)
+            routines.append(edit_bodies(routine, worker.body))
+        modules.append(replace(module, routines=tuple(routines)))
+    done = replace(program, modules=tuple(modules))
+    declared = [
+        ir.Variable(name.id, ir.PoseType(), value, storage="persistent", scope="global")
+        for value, name in worker.frames.items()
+    ]
+    return with_data(done, declared) if declared else done
+
+
+@dataclass(slots=True)
+class _Shifts:
+    context: Context
+    scope: Scope = field(init=False)
+    frames: dict[ir.Aggregate, ir.Name] = field(default_factory=dict)
+
+    def body(self, body: ir.Body) -> ir.Body:
+        return map_body(body, self.statement)
+
+    def statement(self, statement: ir.Statement) -> ir.Body:
+        match statement:
+            case ir.Assign(
+                target=ir.Name(id=name) as target,
+                value=ir.Builtin(function="offset", arguments=(ir.Name() as base, *shift)),
+            ) if self.can_be_parts(name, base, shift):
+                return self.in_parts(statement, target, base, shift)
+            case ir.Move(relative=None, target=target):
+                statement = replace(statement, target=self.in_front(target))
+        return (rewrite_parts(statement, lambda expression: expression, self.body),)
+
+    def can_be_parts(self, name: str, base: ir.Name, shift: list[ir.Expression]) -> bool:
+        """Does the shift look at nothing that the first of the assignments changes? Then its parts may follow."""
+        read = {node.id.lower() for node in walk(*shift) if isinstance(node, ir.Name)}
+        calls = any(isinstance(node, ir.Call) for node in walk(*shift))
+        kinds = (type_of(one, self.scope) for one in (ir.Name(name), base))
+        places = all(isinstance(one, ir.TargetType | ir.PoseType) for one in kinds)
+        return places and name.lower() != base.id.lower() and name.lower() not in read and not calls
+
+    def in_parts(self, whole: ir.Assign, target: ir.Name, base: ir.Name, shift: list[ir.Expression]) -> ir.Body:
+        done: list[ir.Statement] = [replace(whole, value=base)]
+        later = replace(whole.origin, comments=())
+        for part, distance in zip(_PARTS, shift, strict=False):
+            if constant_number(distance, self.scope) != 0.0:
+                value = ir.Binary("+", ir.Field(base, part), distance)
+                done.append(ir.Assign(ir.Field(target, part), value, origin=later))
+        return tuple(done)
+
+    def in_front(self, target: ir.Expression) -> ir.Expression:
+        match target:
+            case ir.Builtin(function="offset" | "tool_offset" as way, arguments=(base, *shift)) if isinstance(
+                base, ir.Name
+            ) or (way == "tool_offset" and _is_product(base)):
+                numbers = [constant_number(one, self.scope) for one in shift]
+                known = [one for one in numbers if one is not None]
+                if len(known) < len(numbers) or any(known[3:]):
+                    return target
+                frame = self.frame(known[:3])
+                left, right = (frame, base) if way == "offset" else (base, frame)
+                return ir.Binary(":", left, right, origin=target.origin)
+        return target
+
+    def frame(self, shift: list[float]) -> ir.Name:
+        values = dict(zip(ir.POSE, [*shift, 0.0, 0.0, 0.0], strict=True))
+        pose = ir.Aggregate(tuple((name, ir.RealLiteral(one)) for name, one in values.items()), type_name="pose")
+        if pose not in self.frames:
+            parts = [f"{name}{one:g}" for name, one in values.items() if one] or ["0"]
+            word = "shift_" + "_".join(parts).replace("-", "m").replace(".", "p")
+            self.frames[pose] = ir.Name(self.context.fresh(word))
+        return self.frames[pose]
+
+
+def _is_product(place: ir.Expression) -> bool:
+    return (
+        isinstance(place, ir.Binary)
+        and place.op == ":"
+        and all(isinstance(one, ir.Name) or _is_product(one) for one in (place.left, place.right))
+    )
