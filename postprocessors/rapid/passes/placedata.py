@@ -8,6 +8,7 @@ place is seen from is the work object of the move. Poses that are something else
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from rpl import ir
 from rpl.ir.walk import walk
@@ -71,7 +72,7 @@ class _Roles:
         for module, routine in self.scopes.routines():
             scope = self.scopes.routine(module, routine)
             self.declared(routine.declarations, scope)
-            edit_bodies(routine, lambda body, scope=scope, routine=routine: self.body(body, scope, routine))
+            edit_bodies(routine, partial(self.body, scope=scope, routine=routine))
         for found in (self.places, self.otherwise):
             size = -1
             while size != len(found):
@@ -288,12 +289,16 @@ class _Rewriting:
     def move(self, old: ir.Move, done: ir.Move, scope: Scope) -> ir.Move:
         """The move with its places in the frame that they are seen from."""
         frame, target = self.roles.split(done.target, scope)
-        through = (frame, None) if done.via is None else self.roles.split(done.via, scope)
-        if through[0] != frame:
-            frame, target, through = None, done.target, (None, done.via)
-        if not self.is_place(target, scope) or (through[1] is not None and not self.is_place(through[1], scope)):
+        via = done.via
+        if via is not None:
+            seen_from, inner = self.roles.split(via, scope)
+            if seen_from == frame:
+                via = inner
+            else:
+                frame, target = None, done.target
+        if not self.is_place(target, scope) or (via is not None and not self.is_place(via, scope)):
             return done
-        via = None if through[1] is None else self.placed(through[1])
+        via = None if via is None else self.placed(via)
         return replace(done, target=self.placed(target), via=via, frame=done.frame if frame is None else frame)
 
     def is_place(self, one: ir.Expression, scope: Scope) -> bool:
