@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.library import call, function, minus, number, part, plus, times
+from rpl.passes.legalise.rewriting.formulas import call, function, minus, number, part, plus, times
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising

@@ -21,8 +21,8 @@ from rpl.passes.legalise.facts.cornersizes import written_size
 from rpl.passes.legalise.facts.moveorder import Pair, pairs_of
 from rpl.passes.legalise.facts.ways import Ways, between
 from rpl.passes.legalise.rewriting.editing import edit_bodies
-from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.library import Library, common_library
 from rpl.passes.legalise.stages import legalising
 
 SMALLER = code(
@@ -206,7 +206,7 @@ class _Corners:
     # ---- writing
 
     def program(self, program: ir.Program) -> ir.Program:
-        helpers = Helpers(self.context)
+        helpers = common_library(self.context)
         changed = False
         modules = []
         for module in program.modules:
@@ -219,7 +219,7 @@ class _Corners:
             modules.append(ir.Module(name, program.modules[0].dialect, (origin,), public=True))
         return helpers.added_to(replace(program, modules=tuple(modules))) if changed else program
 
-    def body(self, body: ir.Body, helpers: Helpers) -> ir.Body:
+    def body(self, body: ir.Body, helpers: Library) -> ir.Body:
         def deeper(inner: ir.Body) -> ir.Body:
             return self.body(inner, helpers)
 
@@ -233,13 +233,13 @@ class _Corners:
         same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
         return body if same else tuple(done)
 
-    def move(self, move: ir.Move, helpers: Helpers) -> ir.Move:
+    def move(self, move: ir.Move, helpers: Library) -> ir.Move:
         key = id(move)
         if key not in self.made:
             self.made[key] = self.fitted(move, helpers)
         return self.made[key]
 
-    def fitted(self, move: ir.Move, helpers: Helpers) -> ir.Move:
+    def fitted(self, move: ir.Move, helpers: Library) -> ir.Move:
         if move.blend in (None, ir.BlendStop()):
             return move
         size, room, other = self.size(move), self.rooms.get(id(move)), self.stopped.get(id(move))

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from rpl import ir
+from rpl.library import routines
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.rewriting.helpers import _TEXTS
 from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.passes.legalise.statements.logic import decide_logic
 
@@ -139,13 +139,15 @@ def test_a_target_with_operators_on_texts(body: str) -> None:
 
 
 def _helper_program(call: str) -> ir.Program:
-    text = "\n".join(_TEXTS.values())
+    text = "\n".join(routines("numbers").values())
     from rpl import registry
     from rpl.diagnostics import Diagnostics
     from rpl.passes.typing import normalise
     from rpl.source import source_from_text
 
-    source = source_from_text("a.rpl", f"MODULE m\n{text}PROCEDURE main()\nMESSAGE {call}\nEND PROCEDURE\nEND MODULE\n")
+    source = source_from_text(
+        "a.rpl", f"MODULE m\n{text}\nPROCEDURE main()\nMESSAGE {call}\nEND PROCEDURE\nEND MODULE\n"
+    )
     return normalise(registry.dialect("rpl").read([source], Diagnostics()).program, Diagnostics())
 
 

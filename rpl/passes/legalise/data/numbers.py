@@ -8,8 +8,7 @@ are declared as real, characters as texts.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.capabilities import Fault
@@ -17,7 +16,7 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import repeatable
 from rpl.passes.legalise.facts.wholes import Wholes, place_key
-from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.rewriting.library import Library
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -64,12 +63,16 @@ class _Split(Rewriter):
     def __init__(self, program: ir.Program, context: Context, one_type: bool) -> None:
         super().__init__(program, context)
         self.wholes = Wholes.of(program, self.scopes) if one_type else None
-        self.library = _Arithmetic(context)
+        self.library = Library(context, ("wholenumbers",))
 
     def program(self) -> ir.Program:
         done = super().program()
         task = done.modules[0].task if done.modules else ""
-        return with_support(done, self.context, (), self.library.routines, task)
+        return self.library.added_to(done, task)
+
+    def made(self, key: str, *arguments: ir.Expression) -> ir.Call:
+        """A call of the function brought along."""
+        return self.library.call(f"rpl_{key}", *arguments)
 
     # ---- types
 
@@ -122,9 +125,9 @@ class _Split(Rewriter):
         start, stop = self.expression(statement.start), self.expression(statement.stop)
         step = None if statement.step is None else constant_number(statement.step, self.scope)
         if statement.step is None and statement.automatic:
-            last: ir.Expression = self.library.call("bound", start, stop)
+            last: ir.Expression = self.made("bound", start, stop)
         else:
-            last = self.library.call("ceil" if step is not None and step < 0 else "floor", stop)
+            last = self.made("ceil" if step is not None and step < 0 else "floor", stop)
         done = super().counting(statement)
         return tuple(replace(one, stop=last) if isinstance(one, ir.For) else one for one in done)
 
@@ -172,7 +175,7 @@ class _Split(Rewriter):
         new = self.expression(old)
         if self.is_int(old) or self.type_of(old) is None:
             return new
-        return self.library.call("round", new) if isinstance(self.type_of(old), ir.RealType) else new
+        return self.made("round", new) if isinstance(self.type_of(old), ir.RealType) else new
 
     def subscript(self, old: ir.Expression) -> ir.Expression:
         """A subscript: rounded only where the controller would not stop at a fraction, as the source's does."""
@@ -227,7 +230,7 @@ class _Split(Rewriter):
         function = "round" if how == "round_half_away" else "trunc"
         if self.has(function):
             return replace(expression, operand=new)
-        return self.library.call(function, new)
+        return self.made(function, new)
 
     def is_whole(self, old: ir.Expression) -> bool:
         return self.is_int(old) or not isinstance(self.type_of(old), ir.RealType)
@@ -237,18 +240,18 @@ class _Split(Rewriter):
         quotient = ir.Binary("/", self.expression(old.left), self.expression(old.right), origin=old.origin)
         if self.has("trunc"):
             return ir.Builtin("trunc", (quotient,), origin=old.origin)
-        return self.library.call("trunc", quotient)
+        return self.made("trunc", quotient)
 
     def remainder(self, old: ir.Binary) -> ir.Expression:
         """What is left of a number that may be fractional (7.5 mod 2 is 1.5)."""
         left, right = self.expression(old.left), self.expression(old.right)
         if not (repeatable(left) and repeatable(right)):
-            return self.library.call("mod_real", left, right)
+            return self.made("mod_real", left, right)
         quotient = ir.Binary("/", left, right, origin=old.origin)
         if self.has("trunc"):
             cut: ir.Expression = ir.Builtin("trunc", (quotient,), origin=old.origin)
         else:
-            cut = self.library.call("trunc", quotient)
+            cut = self.made("trunc", quotient)
         return ir.Binary("-", left, ir.Binary("*", cut, right), origin=old.origin)
 
     def divided(self, old: ir.Binary, op: str, left: ir.Expression, right: ir.Expression) -> ir.Expression:
@@ -257,7 +260,7 @@ class _Split(Rewriter):
         if op == "mod" and self.can("div") and repeatable(left) and repeatable(right):
             quotient = ir.Binary("div", left, right, origin=old.origin)
             return ir.Binary("-", left, ir.Binary("*", quotient, right), origin=old.origin)
-        return self.library.call("mod", left, right) if op == "mod" else replace(old, left=left, right=right)
+        return self.made("mod", left, right) if op == "mod" else replace(old, left=left, right=right)
 
     def power(self, old: ir.Expression, base: ir.Expression, exponent: ir.Expression) -> ir.Expression:
         """A small whole power as a product; any other is left to be reported."""
@@ -281,149 +284,16 @@ class _Split(Rewriter):
             return replace(expression, arguments=new)
         match name, new:
             case (("round" | "trunc"), (one,)):
-                return one if self.is_int(arguments[0]) else self.library.call(name, one)
+                return one if self.is_int(arguments[0]) else self.made(name, one)
             case (("round" | "trunc"), (_, _)):
-                return self.library.call(f"{name}_to", *new)
+                return self.made(f"{name}_to", *new)
             case (("floor" | "ceil"), _):
-                return new[0] if self.is_int(arguments[0]) else self.library.call(name, *new)
+                return new[0] if self.is_int(arguments[0]) else self.made(name, *new)
             case (("min" | "max"), (_, _)):
                 key = f"{name}_whole" if all(map(self.is_int, arguments)) else name
-                return self.library.call(key, *new)
+                return self.made(key, *new)
             case "asin", (one,):
-                return self.library.call("asin", one)
+                return self.made("asin", one)
             case "atan", (one,):
                 return ir.Builtin("atan2", (one, ir.RealLiteral(1.0)), origin=expression.origin)
         return replace(expression, arguments=new)
-
-
-# ---- functions
-
-
-@dataclass(slots=True)
-class _Arithmetic:
-    """Functions of numbers, made when first asked for."""
-
-    context: Context
-    names: dict[str, str] = field(default_factory=dict)
-    routines: list[ir.Routine] = field(default_factory=list)
-
-    def call(self, key: str, *arguments: ir.Expression) -> ir.Call:
-        if key not in self.names:
-            self.names[key] = self.context.fresh(f"rpl_{key}")
-            parameters, returns, local, body = _FUNCTIONS[key](self)
-            self.routines.append(
-                ir.Routine(
-                    self.names[key],
-                    "function",
-                    tuple(ir.Parameter(name, type) for name, type in parameters),
-                    returns,
-                    tuple(ir.Variable(name, type, scope="routine") for name, type in local),
-                    body,
-                    scope="global",
-                )
-            )
-        return ir.Call(self.names[key], tuple(ir.Argument(one) for one in arguments))
-
-
-_Typed = tuple[tuple[str, ir.Type], ...]
-_Parts = tuple[_Typed, ir.Type, _Typed, ir.Body]
-_V, _W, _I = ir.Name("v"), ir.Name("w"), ir.Name("n")
-
-
-def _stored(name: ir.Name, value: ir.Expression) -> ir.Assign:
-    return ir.Assign(name, value)
-
-
-def _rounded_first() -> ir.Assign:
-    return ir.Assign(_I, ir.Convert("round_half_away", _V))
-
-
-def _moved(op: str) -> ir.Body:
-    return (ir.Assign(_I, ir.Binary(op, _I, ir.IntLiteral(1))),)
-
-
-def _test(left: ir.Expression, op: str, right: ir.Expression) -> ir.Expression:
-    return ir.Binary(op, left, right)
-
-
-def _round(made: _Arithmetic) -> _Parts:
-    return (("v", _REAL),), _INT, (("n", _INT),), (_rounded_first(), ir.Return(_I))
-
-
-def _trunc(made: _Arithmetic) -> _Parts:
-    zero = ir.RealLiteral(0.0)
-    above = ir.Binary("and", _test(_V, ">", zero), _test(_I, ">", _V))
-    below = ir.Binary("and", _test(_V, "<", zero), _test(_I, "<", _V))
-    body = (_rounded_first(), ir.If(((above, _moved("-")), (below, _moved("+")))), ir.Return(_I))
-    return (("v", _REAL),), _INT, (("n", _INT),), body
-
-
-def _floor(made: _Arithmetic) -> _Parts:
-    body = (_rounded_first(), ir.If(((_test(_I, ">", _V), _moved("-")),)), ir.Return(_I))
-    return (("v", _REAL),), _INT, (("n", _INT),), body
-
-
-def _ceil(made: _Arithmetic) -> _Parts:
-    body = (_rounded_first(), ir.If(((_test(_I, "<", _V), _moved("+")),)), ir.Return(_I))
-    return (("v", _REAL),), _INT, (("n", _INT),), body
-
-
-def _bound(made: _Arithmetic) -> _Parts:
-    """The whole number nearest to w on the side of v."""
-    first = ir.Assign(_I, ir.Convert("round_half_away", _W))
-    up = ir.Binary("and", _test(_W, ">=", _V), _test(_I, ">", _W))
-    down = ir.Binary("and", _test(_W, "<", _V), _test(_I, "<", _W))
-    body = (first, ir.If(((up, _moved("-")), (down, _moved("+")))), ir.Return(_I))
-    return (("v", _REAL), ("w", _REAL)), _INT, (("n", _INT),), body
-
-
-def _to_decimals(function: str) -> Callable[[_Arithmetic], _Parts]:
-    def make(made: _Arithmetic) -> _Parts:
-        k = ir.Name("k")
-        scale = ir.For("k", ir.IntLiteral(1), _I, None, (_stored(_W, ir.Binary("*", _W, ir.RealLiteral(10.0))),))
-        scaled = made.call(function, ir.Binary("*", _V, _W))
-        body = (_stored(_W, ir.RealLiteral(1.0)), scale, ir.Return(ir.Binary("/", scaled, _W)))
-        return (("v", _REAL), ("n", _INT)), _REAL, (("w", _REAL), (k.id, _INT)), body
-
-    return make
-
-
-def _mod(made: _Arithmetic) -> _Parts:
-    product = ir.Binary("*", ir.Binary("div", _V, _W), _W)
-    return (("v", _INT), ("w", _INT)), _INT, (), (ir.Return(ir.Binary("-", _V, product)),)
-
-
-def _mod_real(made: _Arithmetic) -> _Parts:
-    product = ir.Binary("*", made.call("trunc", ir.Binary("/", _V, _W)), _W)
-    return (("v", _REAL), ("w", _REAL)), _REAL, (), (ir.Return(ir.Binary("-", _V, product)),)
-
-
-def _extreme(op: str, type: ir.Type) -> Callable[[_Arithmetic], _Parts]:
-    def make(made: _Arithmetic) -> _Parts:
-        body = (ir.If(((_test(_V, op, _W), (ir.Return(_V),)),)), ir.Return(_W))
-        return (("v", type), ("w", type)), type, (), body
-
-    return make
-
-
-def _asin(made: _Arithmetic) -> _Parts:
-    square = ir.Binary("-", ir.RealLiteral(1.0), ir.Binary("*", _V, _V))
-    return (("v", _REAL),), _REAL, (), (ir.Return(ir.Builtin("atan2", (_V, ir.Builtin("sqrt", (square,))))),)
-
-
-_FUNCTIONS: dict[str, Callable[[_Arithmetic], _Parts]] = {
-    "round": _round,
-    "trunc": _trunc,
-    "floor": _floor,
-    "ceil": _ceil,
-    "bound": _bound,
-    "round_to": _to_decimals("round"),
-    "trunc_to": _to_decimals("trunc"),
-    "mod": _mod,
-    "mod_real": _mod_real,
-    "min": _extreme("<", _REAL),
-    "max": _extreme(">", _REAL),
-    "min_whole": _extreme("<", _INT),
-    "max_whole": _extreme(">", _INT),
-    "asin": _asin,
-}

@@ -12,13 +12,15 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
+from rpl.passes.capabilities import Aggregate
 from rpl.passes.fold import constant, lasting, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import repeatable
 from rpl.passes.legalise.facts.entries import routines_beside
 from rpl.passes.legalise.facts.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.records.records import RECORDS, Records
-from rpl.passes.legalise.rewriting.library import Library, composed, minus, number, plus, times
+from rpl.passes.legalise.rewriting.formulas import composed, minus, number, plus, times
+from rpl.passes.legalise.rewriting.library import Library
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.wanted import Kind, WantedRewriter
 from rpl.passes.legalise.settings.tooldata import KINEMATICS
@@ -54,7 +56,9 @@ def to_angles(program: ir.Program, context: Context) -> ir.Program:
 class _ToAngles(WantedRewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
-        self.library = Library(context, _target_type(program, context))
+        parts = Aggregate.CONSTANT in context.capabilities.data.aggregates
+        files = ("geometry", "geometryparts") if parts else ("geometry",)
+        self.library = Library(context, files, target=_target_type(program, context))
         self.records = Records(context)
         self.external = has_external_axes(program)
         known = "tool_of_moves" in context.capabilities.system_variables
@@ -65,12 +69,18 @@ class _ToAngles(WantedRewriter):
         if not done.modules:
             return done
         first = done.modules[0]
-        extra = self.library.module(first.dialect, first.task)
-        modules = [*done.modules, *([extra] if extra else [])]
+        modules = list(done.modules)
+        if self.library.names:
+            name = self.context.fresh("rpl_geometry")
+            modules.append(ir.Module(name, first.dialect, routines=tuple(self.library.routines()), task=first.task))
         made = self.records.declarations()
         if made:
             modules[0] = replace(first, declarations=(*made, *first.declarations))
         return replace(done, modules=tuple(modules))
+
+    def made(self, key: str, *arguments: ir.Expression) -> ir.Call:
+        """A call of the function brought along."""
+        return self.library.call(f"rpl_{key}", *arguments)
 
     # ---- types and declarations
 
@@ -219,7 +229,7 @@ class _ToAngles(WantedRewriter):
         if isinstance(known, rigid.Rotation):
             return real(known.quaternion[_QUATERNION.index(name)])
         which = ir.IntLiteral(_QUATERNION.index(name) + 1)
-        return self.library.call("quaternion", which, *self.angles(rotation))
+        return self.made("quaternion", which, *self.angles(rotation))
 
     def lvalue(self, base: ir.Expression) -> ir.Expression:
         """A base whose components can be named; a computed value gets a variable first."""
@@ -237,7 +247,7 @@ class _ToAngles(WantedRewriter):
         lead = six[0]
         if isinstance(lead, ir.Field) and tuple(six) == tuple(ir.Field(lead.base, name) for name in _FLAT):
             return lead.base
-        return self.library.call("frame", *six)
+        return self.made("frame", *six)
 
     def aggregate(self, entries: tuple[tuple[str, ir.Expression], ...]) -> ir.Aggregate:
         return ir.Aggregate(entries, type_name="pose")
@@ -326,7 +336,7 @@ class _ToAngles(WantedRewriter):
                 return self.angles(inner)
             case ir.Aggregate():
                 four = [self.expression(self.named(rotation, name)) for name in _QUATERNION]
-                return _fields(self.kept(self.library.call("rotation", *four), ir.PoseType()), _ANGLES)
+                return _fields(self.kept(self.made("rotation", *four), ir.PoseType()), _ANGLES)
         return _fields(self.lvalue(rotation), _ANGLES)
 
     def six(self, pose: ir.Aggregate) -> list[ir.Expression]:
@@ -428,25 +438,25 @@ class _ToAngles(WantedRewriter):
         can = name in self.context.capabilities.functions
         match name, arguments:
             case "offset", (place, *rest) if not can:
-                return self.library.call("offset", *map(self.expression, (place, *rest)))
+                return self.made("offset", *map(self.expression, (place, *rest)))
             case "tool_offset", (place, *rest) if not can:
                 six = [*map(self.expression, rest), *(number(0) for _ in range(6 - len(rest)))]
-                return self.library.call("tool_offset", self.expression(place), *six)
+                return self.made("tool_offset", self.expression(place), *six)
             case "compose", (one, other) if not can:
                 return composed(self.expression(one), self.expression(other))
             case "pose_of", (one,) if not can:
-                return self.library.call("pose", self.expression(one))
+                return self.made("pose", self.expression(one))
             case "transform", (pose, vector):
-                return self.library.call("transform", self.expression(pose), *self.numbers(vector))
+                return self.made("transform", self.expression(pose), *self.numbers(vector))
             case "distance", (ir.Name(), ir.Name()) if can:
                 return expression
             case "distance", (ir.Field(base=one, name="trans"), ir.Field(base=other, name="trans")) if can:
                 return replace(expression, arguments=(self.expression(one), self.expression(other)))
             case "distance", (one, other):
                 pairs = zip(self.numbers(one), self.numbers(other), strict=True)
-                return self.library.call("length", *(minus(a, b) for a, b in pairs))
+                return self.made("length", *(minus(a, b) for a, b in pairs))
             case "magnitude", (vector,):
-                return self.library.call("length", *self.numbers(vector))
+                return self.made("length", *self.numbers(vector))
             case "dot", (one, other):
                 pairs = zip(self.numbers(one), self.numbers(other), strict=True)
                 return plus(*(times(a, b) for a, b in pairs))
@@ -458,7 +468,7 @@ class _ToAngles(WantedRewriter):
                 return self.expression(rotation)
             case "frame_from_points", (one, two, three, *rest) if not (can and _at_a_point(rest)):
                 points = [self.expression(point) for point in (one, two, three)]
-                return self.library.call("from_points", *points, *(map(self.expression, rest or [ir.IntLiteral(1)])))
+                return self.made("from_points", *points, *(map(self.expression, rest or [ir.IntLiteral(1)])))
             case "current_position", _:
                 return self.whole(self.numbers(expression), (number(0),) * 3)
             case "current_target", _ if not can:
@@ -475,24 +485,24 @@ class _ToAngles(WantedRewriter):
         frames = self.tool_and_frame(arguments[count:])
         first = self.expression(arguments[0])
         if name == "joints_to_target":
-            return self.library.call("seen", first, *frames) if frames else self.library.call("target_of_joints", first)
+            return self.made("seen", first, *frames) if frames else self.made("target_of_joints", first)
         start: ir.Expression = ir.System("actual_joints")
         if count > 1:
             start = self.expression(arguments[1])
             if isinstance(start, ir.Builtin) and start.function == "current_joints":
                 start = ir.System("actual_joints")
         if self.is_a(arguments[0], ir.PoseType):
-            first = self.library.call("as_target", first)
+            first = self.made("as_target", first)
         if frames:
-            first = self.library.call("into", first, *frames)
-        return self.library.call("reached" if name == "is_reachable" else "joints", first, start)
+            first = self.made("into", first, *frames)
+        return self.made("reached" if name == "is_reachable" else "joints", first, start)
 
     def here(self, arguments: tuple[ir.Expression, ...]) -> ir.Expression:
         """Where the robot stands, seen with the given tool and work object."""
         frames = self.tool_and_frame(arguments)
         here = self.scope.routine_here
         beside = here is not None and here.name.lower() in self.beside
-        return self.library.call("beside" if beside else "current", *frames) if frames else ir.System("actual_pose")
+        return self.made("beside" if beside else "current", *frames) if frames else ir.System("actual_pose")
 
     def tool_and_frame(self, arguments: tuple[ir.Expression, ...]) -> tuple[ir.Expression, ...]:
         """The poses of the given tool and work object; none where both are the modal ones."""

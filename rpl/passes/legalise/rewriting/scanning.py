@@ -21,43 +21,6 @@ NO_STATE = code(
 SCAN = "rpl_scan_number"
 _PIECES = re.compile(r"%([df])|\s+|([^%\s]+)|(.)")
 
-# Where the number ends that begins at or behind a position, blanks left out; 0 without one. `points`: how many it has.
-TEXT = """
-FUNCTION rpl_scan_number(t: STRING, begin: INT, points: INT, REFERENCE value: REAL): INT
-    VAR i: INT
-    VAR last: INT
-    VAR first: INT
-    VAR behind: INT
-    VAR room: INT
-    VAR kind: INT
-    VAR sign: STRING
-    VAR piece: STRING
-    VAR good: BOOL
-    last = text_length(t)
-    first = 0
-    behind = 0
-    room = points
-    FOR i = begin TO last
-        IF behind = 0 THEN
-            sign = text_part(t, i, 1)
-            kind = rpl_text_find("0123456789.+- ", 1, sign)
-            IF kind = 0 OR kind > 14 THEN behind = i
-            IF kind = 14 AND first > 0 THEN behind = i
-            IF (kind = 12 OR kind = 13) AND first > 0 THEN behind = i
-            IF kind = 11 AND room = 0 THEN behind = i
-            IF kind = 11 THEN room = 0
-            IF behind = 0 AND first = 0 AND kind < 14 THEN first = i
-        END IF
-    END FOR
-    IF first = 0 THEN RETURN 0
-    IF behind = 0 THEN behind = last + 1
-    piece = text_part(t, first, behind - first)
-    good = rpl_parse_number(piece, value)
-    IF NOT good THEN RETURN 0
-    RETURN behind
-END FUNCTION
-"""
-
 
 def scanned(
     arguments: Sequence[ir.Expression | None],
@@ -116,4 +79,4 @@ def _literal(wanted: str, text: ir.Expression, at: ir.Name, fits: ir.Name) -> ir
     return (ir.If(((enough, (same,)),), (ir.Assign(fits, ir.BoolLiteral(False)),)),)
 
 
-__all__ = ["NO_STATE", "SCAN", "TEXT", "scanned"]
+__all__ = ["NO_STATE", "SCAN", "scanned"]

@@ -19,7 +19,7 @@ from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
-from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.settings import carriedframes
 from rpl.passes.legalise.settings.modal import DROPPED, JOINT_BLEND
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
@@ -101,7 +101,7 @@ def _with_least(program: ir.Program, context: Context) -> ir.Program:
     """The limits of speeds asked for here, where the target has no function for the smaller of two numbers."""
     if "min" in context.capabilities.functions:
         return program
-    helpers = Helpers(context)
+    helpers = common_library(context)
 
     def change(node: object) -> object:
         least = isinstance(node, ir.Builtin) and node.function == "min"

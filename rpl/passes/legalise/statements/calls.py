@@ -18,7 +18,7 @@ from rpl.passes.legalise.facts.effects import Effects, is_constant
 from rpl.passes.legalise.rewriting import scanning
 from rpl.passes.legalise.rewriting.bodies import Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
-from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.rewriting.library import Library, common_library
 from rpl.passes.legalise.rewriting.textparts import PUT
 from rpl.passes.legalise.routines.results import text_results
 from rpl.passes.legalise.stages import legalising
@@ -49,7 +49,7 @@ _HELPER_FUNCTIONS = {
 @legalising()
 def rewrite_calls(program: ir.Program, context: Context) -> ir.Program:
     """The program with only the functions, procedures, operators and conversions of the target."""
-    helpers = Helpers(context)
+    helpers = common_library(context)
     if RoutineRule.TEXT_RESULTS not in context.capabilities.routines.rules:
         program = text_results(program, context)
     effects = Effects(program)
@@ -76,7 +76,7 @@ def rewrite_calls(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Calls(TextHoister):
-    def __init__(self, editor: Editor, helpers: Helpers) -> None:
+    def __init__(self, editor: Editor, helpers: Library) -> None:
         super().__init__(editor, self.ruled, helpers)
         self.capabilities = editor.capabilities
 

@@ -17,7 +17,7 @@ from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting import textparts
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered, Rule
 from rpl.passes.legalise.rewriting.editing import Editor, expansion
-from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.rewriting.library import Library
 
 _SPECIFICATION = re.compile(r"%(?:(%)|(\d+)?(?:\.(\d+))?l?([diufgsc]))")
 _PARAMETER = re.compile(r"%([1-9])")
@@ -47,7 +47,7 @@ _KINDS = "diufegxsc%"
 class TextHoister(Hoister):
     """Hoists what a target's expressions cannot say of texts."""
 
-    def __init__(self, editor: Editor, rule: Rule, helpers: Helpers) -> None:
+    def __init__(self, editor: Editor, rule: Rule, helpers: Library) -> None:
         super().__init__(editor, rule)
         self.helpers = helpers
         self._shared: dict[str, ir.Name] = {}

@@ -12,80 +12,13 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import RoutineRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
 _SPECIFICATION = re.compile(r"%(?:%|(?P<flags>[-+ 0]*)(?P<width>\d*)(?:\.(?P<digits>\d+))?l?(?P<kind>[a-zA-Z]))")
 _DEFAULT_DECIMALS = 6
 _BASES = {"x": (16, "0123456789abcdef"), "X": (16, "0123456789ABCDEF"), "o": (8, "01234567")}
-_HELPERS = {
-    "rpl_filled": """
-FUNCTION rpl_filled(t: STRING, width: INT): STRING
-    VAR done: STRING
-    done = t
-    WHILE text_length(done) < width
-        done = done & " "
-    END WHILE
-    RETURN done
-END FUNCTION
-""",
-    "rpl_zeros": """
-FUNCTION rpl_zeros(t: STRING, width: INT): STRING
-    VAR sign: STRING
-    VAR done: STRING
-    VAR count: INT
-    done = t
-    count = width
-    sign = text_part(t, 1, 1)
-    IF sign <> "-" THEN
-        IF sign <> "+" THEN sign = ""
-    END IF
-    IF sign <> "" THEN
-        done = text_part(t, 2, text_length(t) - 1)
-        count = width - 1
-    END IF
-    WHILE text_length(done) < count
-        done = "0" & done
-    END WHILE
-    done = sign & done
-    RETURN done
-END FUNCTION
-""",
-    "rpl_signed": """
-FUNCTION rpl_signed(t: STRING, plus: STRING): STRING
-    VAR done: STRING
-    done = text_part(t, 1, 1)
-    IF done = "-" THEN RETURN t
-    done = plus & t
-    RETURN done
-END FUNCTION
-""",
-    "rpl_beginning": """
-FUNCTION rpl_beginning(t: STRING, most: INT): STRING
-    VAR done: STRING
-    done = t
-    IF text_length(t) > most THEN done = text_part(t, 1, most)
-    RETURN done
-END FUNCTION
-""",
-    "rpl_based": """
-FUNCTION rpl_based(number: INT, base: INT, digits: STRING): STRING
-    VAR done: STRING
-    VAR rest: INT
-    VAR digit: INT
-    done = ""
-    rest = abs(number)
-    REPEAT
-        digit = rest MOD base
-        done = text_part(digits, digit + 1, 1) & done
-        rest = rest DIV base
-    UNTIL rest = 0
-    IF number < 0 THEN done = "-" & done
-    RETURN done
-END FUNCTION
-""",
-}
 
 
 @legalising(
@@ -117,7 +50,7 @@ def _form(node: object) -> str:
 class _Formats(Rewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
-        self.helpers = Helpers(context, _HELPERS)
+        self.helpers = common_library(context)
         self.own = "format" in context.capabilities.functions
 
     def expression(self, expression: ir.Expression) -> ir.Expression:

@@ -11,7 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
@@ -22,39 +22,6 @@ NO_BYTES = code(
     "send the number as digits",
 )
 _WRITES, _READS = "number_bytes", "bytes_number"
-_HELPERS = {
-    "rpl_number_bytes": """
-FUNCTION rpl_number_bytes(number: INT, count: INT): STRING
-    VAR done: STRING
-    VAR rest: INT
-    VAR low: INT
-    VAR i: INT
-    done = ""
-    rest = number
-    FOR i = 1 TO count
-        low = rest MOD 256
-        IF low < 0 THEN low = low + 256
-        done = from_code(low) & done
-        rest = (rest - low) DIV 256
-    END FOR
-    RETURN done
-END FUNCTION
-""",
-    "rpl_bytes_number": """
-FUNCTION rpl_bytes_number(t: STRING, first: INT, count: INT): INT
-    VAR sum: INT
-    VAR code: INT
-    VAR i: INT
-    sum = character_code(text_part(t, first, 1))
-    IF sum > 127 THEN sum = sum - 256
-    FOR i = 2 TO count
-        code = character_code(text_part(t, first + i - 1, 1))
-        sum = sum * 256 + code
-    END FOR
-    RETURN sum
-END FUNCTION
-""",
-}
 
 
 @legalising(
@@ -80,7 +47,7 @@ def _is_bytes(node: object) -> TypeGuard[ir.Builtin]:
 class _Bytes(Rewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
-        self.helpers = Helpers(context, _HELPERS)
+        self.helpers = common_library(context)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         done = super().expression(expression)

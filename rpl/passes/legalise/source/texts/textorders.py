@@ -7,29 +7,12 @@ from __future__ import annotations
 from rpl import ir
 from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.helpers import Helpers
+from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
 _ORDERS = frozenset(("<", "<=", ">", ">="))
 _HELPER = "rpl_text_order"
-# Below zero: the first one stands in front. A text stands in front of what it is the beginning of.
-_TEXT = """
-FUNCTION rpl_text_order(one: STRING, other: STRING): INT
-    VAR i: INT
-    VAR size: INT
-    VAR first: INT
-    VAR second: INT
-    size = text_length(one)
-    IF text_length(other) < size THEN size = text_length(other)
-    FOR i = 1 TO size
-        first = character_code(text_part(one, i, 1))
-        second = character_code(text_part(other, i, 1))
-        IF first <> second THEN RETURN first - second
-    END FOR
-    RETURN text_length(one) - text_length(other)
-END FUNCTION
-"""
 
 
 @legalising(
@@ -45,7 +28,7 @@ def text_orders(program: ir.Program, context: Context) -> ir.Program:
 class _Orders(Rewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
-        self.helpers = Helpers(context, {_HELPER: _TEXT})
+        self.helpers = common_library(context)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         done = super().expression(expression)

@@ -14,8 +14,8 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
-from rpl.passes.legalise.rewriting.helpers import Helpers
 from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.stages import legalising
 
 AS_DISTANCE = code(
@@ -63,7 +63,7 @@ def _computed(program: ir.Program, context: Context, levels: tuple[float, ...]) 
     """Moves whose level the run chooses."""
     if not any(isinstance(one, ir.Move) and isinstance(one.blend, ir.BlendLevel) for one in walk(*program.modules)):
         return program
-    helpers, effects = Helpers(context, {_CORNER: _text(levels)}), Effects(program)
+    helpers, effects = common_library(context, {_CORNER: _text(levels)}), Effects(program)
 
     def chosen(statement: ir.Statement) -> ir.Body:
         if not isinstance(statement, ir.Move) or not isinstance(statement.blend, ir.BlendLevel):
