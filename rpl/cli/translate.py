@@ -129,10 +129,7 @@ def command(
 
     own, arms = _options(options), (about["robot"], about["to_robot"])
     target = _target(target, own)
-    robots_exist(*arms)
-    _certifiable(kept, paths, output)
-    sheet_can_be_written(sheet)
-    _keepable(keeping, output, kept)
+    _can_be_done(arms, paths, output, sheet, kept, keeping)
     house, earlier = _house(templates, target), _earlier(chosen, output if keeping else None)
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
@@ -143,8 +140,7 @@ def command(
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
         translation = _translated(read, target, arms, diagnostics, earlier, about.pop("backup"), own, around, house)
-        if keeping and output is not None:
-            translation = _with_floor(translation, target, output, earlier, diagnostics)
+        translation = _with_floor(translation, target, output if keeping else None, earlier, diagnostics)
     if strict:
         _raise_approximations(diagnostics, before)
     if diagnostics.has_errors:
@@ -163,6 +159,21 @@ def command(
     write_sheet(sheet, read, translation, diagnostics, ready, proof, target, arms)
     proved = status_of(proof) if proof is not None else OK
     return proved if proved != OK or not diagnostics.has_losses else GUARDED
+
+
+def _can_be_done(
+    arms: tuple[str | None, str | None],
+    paths: Sequence[str],
+    output: Path | None,
+    sheet: Path | None,
+    certificate: Path | None,
+    keeping: bool,
+) -> None:
+    """Raises UsageError for what would fail at the end of long work."""
+    robots_exist(*arms)
+    _certifiable(certificate, paths, output)
+    sheet_can_be_written(sheet)
+    _keepable(keeping, output, certificate)
 
 
 def _asks(about: Mapping[str, Any]) -> bool:
@@ -198,11 +209,14 @@ def _keepable(keeping: bool, output: Path | None, certificate: Path | None) -> N
 
 
 def _with_floor(
-    translation: Translation, target: str, output: Path, earlier: NameMap, diagnostics: Diagnostics
+    translation: Translation, target: str, output: Path | None, earlier: NameMap, diagnostics: Diagnostics
 ) -> Translation:
-    """The translation with what was taught anew in the folder, and a map that tells the values."""
+    """The translation with what was taught anew in the folder, and a map that tells the values; without a folder as it
+    is."""
     from rpl.proof.teaching.floor import with_floor
 
+    if output is None:
+        return translation
     floor = with_floor(translation.files, target, output, earlier.taught, diagnostics)
     return replace(translation, files=floor.files, map=replace(translation.map, taught=floor.values))
 
