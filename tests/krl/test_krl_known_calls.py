@@ -221,7 +221,7 @@ def test_what_a_program_does_not_use_of_the_controllers_data_is_left_out() -> No
     source = f"DEF forms()\nBAS(#INITMOV,0)\n{JOINT.format(1, 60)}END\n"
     lines, diagnostics = written({"forms.src": source, "forms.dat": DATA, "$config.dat": config})
     (move,) = (line for line in lines if line.startswith("MoveJ"))
-    assert move.startswith("MoveJ XP1,v3000,fine,")
+    assert move.startswith("MoveJ XP1,v1000,fine,")
     assert "[0.0,0.0,130.0]" in "".join(lines)
     assert "[30.0,-20.0,15.0]" in "".join(lines)
     text = "\n".join(lines)

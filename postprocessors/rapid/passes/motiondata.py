@@ -32,7 +32,7 @@ NEAREST = code(
     "{wanted:g} {unit} is written as {name}, the predefined value next to it",
 )
 _WITHIN = 0.02
-_ESTIMATED = 0.25  # how far an estimate may be from the predefined value: half of the way to the next one, about
+_ESTIMATED = 0.1  # how far the speed of a joint move may be from the predefined one next to it
 _TURN, _ANY_TURN_DEG = 4, 180.0  # where a zone says how far from its corner the tool may turn, and all there is
 _FULL = ir.Name("vmax")
 _FULL_MM_S = 5000.0  # what 100 % of the axes' speed is written as, where a tool speed has to stand for it

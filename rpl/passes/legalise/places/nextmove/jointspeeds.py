@@ -75,8 +75,8 @@ def _joint_moves(*nodes: object) -> Iterator[ir.Move]:
 
 
 def _spoken(move: ir.Move) -> bool:
-    """May its speed need another measure? One by time or by the speed of an axis is neither."""
-    return move.speed is None or (move.speed.duration is None and move.speed.axis is None)
+    """May its speed need another measure? One by time needs none."""
+    return move.speed is None or move.speed.duration is None
 
 
 class _Ends(Whereabouts):
@@ -86,7 +86,7 @@ class _Ends(Whereabouts):
     def __init__(self, program: ir.Program, context: Context, source: Arm, arm: Arm) -> None:
         self.tool_speeds: dict[int, float] = {}
         self.of_source, self.runs_on = source, arm
-        super().__init__(program, replace(context, to_robot=None))
+        super().__init__(program, replace(context, to_robot=None), settled=True)
 
     def moved(self, move: ir.Move, stand: Stand) -> Stand:
         if move.kind != "joint":
@@ -154,14 +154,14 @@ class _Speeds:
         if not _spoken(move):
             return None
         if self.percents:
-            if speed.joint is not None:
+            if speed.joint is not None or speed.axis is not None:
                 return None
             path = None if speed.path is None else constant(speed.path, scope, self.unchanged)
             if path is None and speed.profile is not None:
                 profile = constant(speed.profile, scope, self.unchanged)
                 path = profile.part("path") if isinstance(profile, Record) else None
             return float(path) if isinstance(path, int | float) and path > 0.0 else None
-        if speed.path is not None or speed.profile is not None:
+        if speed.path is not None or speed.profile is not None or speed.axis is not None:
             return None
         own = next((value for name, value in move.settings if name == ir.System("joint_speed")), None)
         said = speed.joint or own or self.flow.at(move)["joint_speed"]
