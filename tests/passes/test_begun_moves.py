@@ -81,11 +81,11 @@ def test_a_controller_that_always_waits_does_the_steps_in_a_task() -> None:
     assert not lost
     code = [line.partition(":")[2].strip(" ;") for line in lines]
     begin = next(at for at, line in enumerate(code) if line.startswith("RUN "))
-    assert code[begin - 1].endswith("=(ON)") and code[begin + 1].startswith("L PR[1:q]")
+    assert code[begin - 1].endswith("=(ON)") and code[begin + 1].startswith("L P[1:q]")
     flag = code[begin - 1].partition("=")[0]
     assert code[begin + 2 : begin + 4] == [f"WAIT (!{flag})", "DO[1]=ON"]
     task = code[code.index("DO[1]=ON", begin + 4) :]
-    assert task[1].endswith("=LPOS") and task[2] == f"{flag}=(OFF)"
+    assert task[1] == f"{flag}=(OFF)"  # nobody asks for `now`
     groups = [line.partition("=")[2].strip(" ;") for line in lines if line.startswith("DEFAULT_GROUP")]
     assert groups == ["1,*,*,*,*", "*,*,*,*,*"]  # M: a program without the arm may look where it is
 

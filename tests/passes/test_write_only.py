@@ -56,5 +56,11 @@ def test_an_output_that_is_only_set_has_no_variable() -> None:
 
 def test_a_computed_number_is_refused() -> None:
     diagnostics = Diagnostics()
-    translate_program(read(PROGRAM % ("i=2\n$ANOUT[i]=0.5\nv=$ANOUT[2]", "TRUE")), "vplus", None, None, diagnostics)
+    translate_program(
+        read(PROGRAM % ("IF $IN[1] THEN\ni=1\nELSE\ni=2\nENDIF\n$ANOUT[i]=0.5\nv=$ANOUT[2]", "TRUE")),
+        "vplus",
+        None,
+        None,
+        diagnostics,
+    )
     assert any("analog" in item.message for item in diagnostics.of(Severity.LOSS))

@@ -1,13 +1,13 @@
 """Data that begins with a value and that nothing assigns is `CONST`, as people write it: numbers at the module's head,
 taught points (the pendant modifies positions of constants as well) and joint positions. Tools and work objects stay
-`PERS`, which RAPID asks of them.
+`PERS`, which RAPID asks of them, and so do numbers that were registers: operators set these between two runs.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from rpl import ir
+from rpl import ir, registry
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -16,7 +16,8 @@ from rpl.passes.rewrite import changed
 
 __all__ = ["constant_data"]
 
-_TYPES = (ir.IntType, ir.RealType, ir.BoolType, ir.TargetType, ir.JointsType)
+_PLACES = (ir.TargetType, ir.JointsType)
+_NUMBERS = (ir.IntType, ir.RealType, ir.BoolType)
 
 
 @legalising()
@@ -26,11 +27,13 @@ def constant_data(program: ir.Program, context: Context) -> ir.Program:
     changes = unchanged.assigned | set(unchanged.initialised)
     changes |= {node.counter.lower() for node in walk(*program.modules) if isinstance(node, ir.For)}
     tasks = {module.task for module in program.modules}
+    target = registry.target(context.source) if context.source in registry.target_names() else None
+    types = _PLACES if target is not None and target.capabilities().storage.banks else (*_PLACES, *_NUMBERS)
 
     def declared(one: ir.Declaration) -> ir.Declaration:
         match one:
             case ir.Variable(storage="variable" | "persistent", initial=initial, type=type) if (
-                initial is not None and isinstance(type, _TYPES) and one.name.lower() not in changes
+                initial is not None and isinstance(type, types) and one.name.lower() not in changes
             ):
                 return replace(one, storage="constant")
         return one

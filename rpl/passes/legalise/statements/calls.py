@@ -130,7 +130,7 @@ class _Calls(TextHoister):
 
     def scanned(self, statement: ir.Do, arguments: tuple[ir.Expression | None, ...]) -> ir.Body | None:
         """Numbers read by a format, where they can be read at all."""
-        if not self.cuts and "parse_number" not in self.capabilities.procedures:
+        if not self.reads_numbers and "parse_number" not in self.capabilities.procedures:
             return None
         done = scanning.scanned(arguments, self.helpers.call, self.editor.temporary, self.whole)
         if done is None:

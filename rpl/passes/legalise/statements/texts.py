@@ -275,9 +275,14 @@ class TextHoister(Hoister):
             return call.function in can.functions and call.arguments[1:2] == (ir.IntLiteral(1),)
         return call.function in can.functions
 
+    @property
+    def reads_numbers(self) -> bool:
+        """Can the helpers that read a number be said? They find where it ends and ask the target for its value."""
+        return self.cuts and "text_value" in self.editor.capabilities.functions
+
     def parsed(self, name: str, arguments: Sequence[ir.Expression | None]) -> ir.Expression | None:
         """A number read from a text by a helper, where texts can only be cut."""
-        if not self.cuts or name not in ("parse_number", "parse_value") or len(arguments) != 2:
+        if not self.reads_numbers or name not in ("parse_number", "parse_value") or len(arguments) != 2:
             return None
         text, target = arguments
         if text is None or target is None:

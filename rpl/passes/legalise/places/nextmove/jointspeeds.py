@@ -49,6 +49,9 @@ _CHORDS = 9
 # What a joint move does on average of what the first axis alone could do with the tool, for moves of which nothing is
 # known: of the moves in our samples between 0.3 and 0.7.
 _USUAL_SHARE = 0.5
+# Shares and limits of all speeds are worked into the moves later, in the measure of the source: programs that set them
+# keep it.
+_SHARES = ("speed_percent", "speed_limit")
 _LEAST_WAY = 1e-3  # mm and deg; less is no way
 
 
@@ -65,6 +68,8 @@ def joint_speeds(program: ir.Program, context: Context) -> ir.Program:
     given."""
     arm = context.to_robot or context.robot
     if arm is None or context.robot is None or not any(_spoken(one) for one in _joint_moves(*program.modules)):
+        return program
+    if any(isinstance(one, ir.System) and one.name in _SHARES for one in walk(*program.modules)):
         return program
     speeds = _Speeds(program, context, context.robot, arm)
     return edit_all(program, speeds.body) if speeds.found else program
