@@ -194,8 +194,9 @@ def _assigned(statement: ir.Statement, usage: Usage) -> None:
             _name(clock, usage.otherwise)
         case ir.DefineTrigger(target=target):
             _name(target, usage.otherwise)
-        case ir.Move(search=ir.Search(found=found)):
+        case ir.Move(search=ir.Search(found=found, hit=hit)):
             _name(found, usage.otherwise)
+            _name(hit, usage.otherwise)
 
 
 def _arguments(name: str, arguments: tuple[ir.Argument, ...], usage: Usage) -> None:
