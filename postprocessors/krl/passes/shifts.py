@@ -11,6 +11,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.facts.externalaxes import has_external_axes
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.headdata import with_data
 from rpl.passes.legalise.stages import legalising
@@ -26,7 +27,7 @@ _PARTS = ("x", "y", "z")
 @legalising(sees=("function offset", "function tool_offset"))
 def said_shifts(program: ir.Program, context: Context) -> ir.Program:
     """What is neither stays a function."""
-    worker, scopes = _Shifts(context), ProgramScope(program)
+    worker, scopes = _Shifts(context, has_external_axes(program)), ProgramScope(program)
     modules = []
     for module in program.modules:
         routines = []
@@ -45,6 +46,7 @@ def said_shifts(program: ir.Program, context: Context) -> ir.Program:
 @dataclass(slots=True)
 class _Shifts:
     context: Context
+    external: bool
     scope: Scope = field(init=False)
     frames: dict[ir.Aggregate, ir.Name] = field(default_factory=dict)
 
@@ -58,7 +60,7 @@ class _Shifts:
                 value=ir.Builtin(function="offset", arguments=(ir.Name() as base, *shift)),
             ) if self.can_be_parts(name, base, shift):
                 return self.in_parts(statement, target, base, shift)
-            case ir.Move(relative=None, target=target):
+            case ir.Move(relative=None, target=ir.Builtin() as target) if self.needs_pose_alone(statement.kind, target):
                 statement = replace(statement, target=self.in_front(target))
         return (rewrite_parts(statement, lambda expression: expression, self.body),)
 
@@ -68,7 +70,15 @@ class _Shifts:
         calls = any(isinstance(node, ir.Call) for node in walk(*shift))
         kinds = (type_of(one, self.scope) for one in (ir.Name(name), base))
         places = all(isinstance(one, ir.TargetType | ir.PoseType) for one in kinds)
-        return places and name.lower() != base.id.lower() and name.lower() not in read and not calls
+        parts = {node.base.id for node in walk(*shift) if isinstance(node, ir.Field) and isinstance(node.base, ir.Name)}
+        aliases = bool(parts) and any(self.is_alias(one) for one in {name, *parts})
+        return places and name.lower() not in {base.id.lower(), *read} and not calls and not aliases
+
+    def is_alias(self, name: str) -> bool:
+        """May the name stand for a place of another name as well?"""
+        symbol = self.scope.value(name)
+        declared = symbol.declaration if symbol is not None else None
+        return isinstance(declared, ir.Parameter) and declared.mode == "reference"
 
     def in_parts(self, whole: ir.Assign, target: ir.Name, base: ir.Name, shift: list[ir.Expression]) -> ir.Body:
         done: list[ir.Statement] = [replace(whole, value=base)]
@@ -78,6 +88,12 @@ class _Shifts:
                 value = ir.Binary("+", ir.Field(base, part), distance)
                 done.append(ir.Assign(ir.Field(target, part), value, origin=later))
         return tuple(done)
+
+    def needs_pose_alone(self, kind: str, shifted: ir.Builtin) -> bool:
+        """Does a move there ask for nothing that a product of frames lacks?"""
+        if not shifted.arguments or not isinstance(type_of(shifted.arguments[0], self.scope), ir.TargetType):
+            return True
+        return kind != "joint" and (shifted.function == "offset" or not self.external)
 
     def in_front(self, target: ir.Expression) -> ir.Expression:
         match target:
