@@ -79,7 +79,7 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         MoveAbsJ j,v500,fine,tool0; row{2}:=[430,10,350];
         here:=[row{2},OrientZYX(180,0,180),[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; MoveJ here,v500,fine,tool0;
         IF ok AND Distance(CPos(),[430,10,350])<0.2 SetDO do1,1;""",
-        frozenset(("val3",)),  # angles of a place, and where the robot is without a tool said
+        frozenset(),
     ),
     (
         "lists of any length that are handed on",
@@ -103,7 +103,7 @@ CASES: list[tuple[str, str, str, frozenset[str]]] = [
         MoveJ pSeat,v500,fine,tProbe\\WObj:=wFix; here:=CRobT(\\Tool:=tProbe);
         ok:=ok AND Distance(here.trans,pSeat.trans)<0.1; at:=CPos(\\WObj:=wobj0); ok:=ok AND Abs(at.z-280)<0.1;
         at:=CPos(\\Tool:=tOther); IF ok AND Abs(at.z-80)<0.1 SetDO do1,1;""",
-        frozenset(("val3",)),  # a distance of two positions
+        frozenset(),
     ),
     (
         "a record that holds an array of records",

@@ -13,7 +13,7 @@ RAPID = """MODULE cell
   PERS tooldata tGrip:=[TRUE,[[0,0,120],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
   TASK PERS wobjdata wobj3:=[FALSE,TRUE,"",[[0,20,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
   TASK PERS wobjdata wobjBelt:=[FALSE,TRUE,"",[[0,-20,5],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-  CONST robtarget pA:=[[300,0,200],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget pA:=[[300,0,200],[0,1,0,0],[0,0,-2,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   PROC main()
     MoveJ pA,v200,fine,tGrip\\WObj:=wobj3;
     take;
