@@ -166,7 +166,6 @@ def test_one_that_takes_time_or_stops_a_move_that_goes_on_is_refused_where_it_is
     [
         "WAY()",
         "INTERRUPT OFF 10\nWAY()\nINTERRUPT ON 10",
-        "INTERRUPT DISABLE 10\nWAY()\nINTERRUPT ENABLE 10",
     ],
 )
 def test_an_interrupt_comes_at_each_edge_while_it_is_on(lines: str) -> None:

@@ -52,8 +52,8 @@ def test_a_search_is_a_reaction_that_stops_the_robot() -> None:
     lines, diagnostics, _ = rapid(SEARCH)
     start = next(at for at, line in enumerate(lines) if line.startswith("REACTI"))
     assert lines[start : start + 5] == [
-        *("REACTI 1001, rpl_on_hit, 119", "SPEED 20 MMPS"),
-        *("MOVES wboard_user_fra:SHIFT(pabove BY 0, 0, -100)", "BREAK", "IGNORE 1001"),
+        *("REACTI ditouch, rpl_on_hit, 119", "SPEED 20 MMPS"),
+        *("MOVES wboard_user_fra:SHIFT(pabove BY 0, 0, -100)", "BREAK", "IGNORE ditouch"),
     ]
     program = lines[lines.index(".PROGRAM rpl_on_hit()") :]
     assert program[1:3] == ["SET #rpl_hit_at = #PHERE", "rpl_hit = TRUE"]
