@@ -27,7 +27,6 @@ UNEXPLAINED = {
         ("krl_more_tray", "vplus"): [10],
     },
     "interrupts do not interrupt one another": {("krl_more_press", "rapid"): [9]},
-    "the routine of the refused statement is called elsewhere too": {("inform_more_backup", "val3"): [15]},
 }
 # Losses of the whole program, which stand at no statement.
 WITHOUT_A_PLACE = {"inform-many-tasks"}
