@@ -123,10 +123,6 @@ class Effects:
             quiet = {name for name in quiet if all(_calls_quiet(one, quiet) for one in routines[name])}
         return quiet
 
-    def add_quiet(self, name: str) -> None:
-        """A generated routine that changes nothing but its own output parameters."""
-        self._quiet.add(name.lower())
-
     def quiet(self, expression: ir.Expression) -> bool:
         """Does evaluating it change nothing?"""
         return all(
