@@ -10,6 +10,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from types import FrameType
 
 import click
 
@@ -19,6 +20,7 @@ from rpl.showing import printable
 
 OK, NO, USAGE, GUARDED = 0, 1, 2, 3
 _INTERRUPTED, _PIPE_CLOSED, _TERMINATED = 130, 141, 143
+_AGAIN_S = 0.05  # Ctrl-C that comes while a module is loaded is tried again after this
 # Commands that only list what there is: who has read enough of it may go away.
 _LISTINGS = ("dialects", "robots", "templates")
 _HELP = frozenset(("-h", "--help", "--version"))
@@ -80,6 +82,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point of the console script. Always ends by SystemExit."""
     if signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
         signal.signal(signal.SIGTERM, _terminate)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler and hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGINT, _interrupt)
+        signal.signal(signal.SIGALRM, _interrupt)
     _open_streams()
     sys.exit(run(arguments))
 
@@ -94,6 +99,16 @@ def _open_streams() -> None:
 def _terminate(number: int, frame: object) -> None:
     """Who is told to end leaves the terminal and its files as they should be."""
     raise SystemExit(_TERMINATED)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    """Ctrl-C, as soon as no module is being loaded: those written in C may swallow an exception at their start."""
+    within = frame
+    while within is not None and not within.f_code.co_filename.startswith("<frozen importlib"):
+        within = within.f_back
+    if within is None:
+        raise KeyboardInterrupt
+    signal.setitimer(signal.ITIMER_REAL, _AGAIN_S)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

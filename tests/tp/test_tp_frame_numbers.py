@@ -13,7 +13,7 @@ RAPID = """MODULE cell
   PERS tooldata tGrip:=[TRUE,[[0,0,120],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
   TASK PERS wobjdata wobj3:=[FALSE,TRUE,"",[[0,20,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
   TASK PERS wobjdata wobjBelt:=[FALSE,TRUE,"",[[0,-20,5],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-  CONST robtarget pA:=[[300,0,200],[0,1,0,0],[0,0,-2,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget pA:=[[300,0,200],[0,1,0,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   PROC main()
     MoveJ pA,v200,fine,tGrip\\WObj:=wobj3;
     take;
@@ -51,13 +51,13 @@ def test_a_number_is_selected_where_it_begins_to_hold() -> None:
 
 def test_the_values_stand_in_the_dump_of_frames() -> None:
     read = read_sources([source_from_text("cell.mod", RAPID)], "rapid", Diagnostics())
-    written = translate_program(read, "tp", "abb_irb1200_5_90", None, Diagnostics())
+    written = translate_program(read, "tp", "fanuc_lrmate200id", None, Diagnostics())
     (dump,) = (file.data.decode("ascii") for file in written.files if file.path == "SYSFRAME.VA")
     assert "[1,3]" in dump and "Y:    20.000" in dump and "Z:   120.000" in dump
     assert {written.registers[one] for one in (("UFRAME", 1), ("UFRAME", 3))} == {"wobjBelt", "wobj3"}
     assert written.registers["UTOOL", 1] == "tGrip"
     kept = translate_program(
-        read, "tp", "abb_irb1200_5_90", None, Diagnostics(), NameMap(numbers={("UTOOL", 4): "tGrip"})
+        read, "tp", "fanuc_lrmate200id", None, Diagnostics(), NameMap(numbers={("UTOOL", 4): "tGrip"})
     )
     assert kept.registers["UTOOL", 4] == "tGrip"
 
