@@ -218,6 +218,7 @@ def _translated(
     words = renamed if capabilities.io.signal_prefixes else {}
     written, numbers, types = _with_signals(program, context, words), context.register_names, context.register_types
     names = named(program, renamed, bool(capabilities.storage.banks)) if source != target_name else {}
+    names = {old: new for old, new in names.items() if new.lower() not in capabilities.names.predefined}
     groups = _groups(context) if names and capabilities.storage.banks else {}
     given = NameMap(target_name, names, {**numbers, **groups, **_signals(context, renamed)}, types).behind(earlier)
     _not_kept(given, earlier, collector)

@@ -67,6 +67,7 @@ CAPABILITIES = Capabilities(
         reserved=tables.RESERVED,
         first="abcdefghijklmnopqrstuvwxyz_",
         further="abcdefghijklmnopqrstuvwxyz0123456789_",
+        predefined=tables.OWN,
     ),
     conversions=tables.SILENT_CONVERSIONS,
     places=Places(

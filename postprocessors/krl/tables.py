@@ -43,6 +43,14 @@ OPERATORS = OperatorTable(
     mixed=(frozenset(_BINARY),),
 )
 
+# The controller's data list, its tables of tools and bases with the names in them, and how many each has.
+CONFIG = "$config"
+SELECTED = {"tool": "TOOL_DATA", "base": "BASE_DATA"}
+NAMES = {"TOOL_DATA": "TOOL_NAME", "BASE_DATA": "BASE_NAME"}
+MOST_FRAMES = 32
+LONGEST_FRAME_NAME = 24
+OWN = frozenset((CONFIG, *(name.lower() for pair in NAMES.items() for name in pair)))
+
 EXTERNAL_KINEMATICS = ("EASYS", "EBSYS", "ECSYS", "EDSYS", "EESYS", "EFSYS")
 COUNTED = frozenset(_WORDS.listed("counted"))
 # Structured variables whose components are neutral variables of their own, in KRL's order.

@@ -28,7 +28,7 @@ LOST_DECLARATION = code(
 )
 LOST_HANDLER = code("krl-lost-handler", Severity.LOSS, "KRL has no error handlers; the one of {name} is left out", "")
 
-_CONFIG = "$config"
+_TABLES = "For the tables of the controller's own $config.dat"
 _KRL_FILES = (".src", ".dat", ".sub")
 
 
@@ -57,6 +57,7 @@ class _Module:
     ) -> None:
         self.module, self.scopes, self.ledger, self.background = module, scopes, ledger, background
         self.diagnostics, self.say = context.diagnostics, macros
+        self.is_config = module.name.lower() == tables.CONFIG
         self.scope = scopes.module(module)
 
     def files(self) -> list[OutputFile]:
@@ -76,7 +77,7 @@ class _Module:
             text = self.say("program", attributes=program, routines=routines)
             found.append(_file(f"{module.name}.{suffix}", text))
         if lines or data or not module.routines:
-            seen = module.name.lower() != _CONFIG  # its data are seen everywhere without the word
+            seen = not self.is_config  # its data are seen everywhere without the word
             public = module.public or any(
                 seen and getattr(declaration, "scope", "") in ("task", "global") for declaration in module.declarations
             )
@@ -120,6 +121,8 @@ class _Module:
 
     def data_lines(self) -> list[str]:
         printer = self.printer(self.scope)
+        if self.is_config and self.module.origin.source is None:
+            printer.lines.extend(self.say.lines("remark", text=_TABLES))
         for declaration in self.module.declarations:
             self.declaration(declaration, printer, self.scope, in_data=True)
         return printer.lines
@@ -128,6 +131,8 @@ class _Module:
         origin, say = declaration.origin, self.say
         try:
             match declaration:
+                case ir.Variable(name=name) if self.is_config and name.lower() in tables.OWN:
+                    pass  # the controller declares it
                 case ir.Variable():
                     values = first_values(declaration, scope, in_data)
                     printer.line(say("variable", **variable_words(declaration, scope, in_data)), origin)

@@ -153,7 +153,7 @@ class NameMangler:
     """Names of a program made legal for a target, the same way every time; `restore` gives the source's name back.
 
     One source name becomes one target name wherever it stands. `names` are all names of the program: those that are
-    legal keep their spelling, whatever the others need. `pinned`: what some of them are called whatever else there is
+    legal keep their spelling, whatever the others need, and so do the controller's own. `pinned`: what some of them are called whatever else there is
     (each legal and of one name). Taken names are compared as the target compares them.
     """
 
@@ -178,7 +178,8 @@ class NameMangler:
         for name, chosen in pinned.items():
             self._keep(name, chosen)
         for name in ordered:
-            if self._key(name) not in self._forth and self.legal(name) and self._folded(name) not in self._taken:
+            legal = self.legal(name) or self._folded(name) in rules.predefined
+            if self._key(name) not in self._forth and legal and self._folded(name) not in self._taken:
                 self._keep(name, name)
         for name in ordered:
             self.name(name)

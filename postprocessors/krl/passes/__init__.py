@@ -5,6 +5,7 @@ from __future__ import annotations
 from rpl.passes.legalise.stages import Placed
 
 from .changedplaces import changed_places
+from .framenumbers import frame_numbers
 from .groups import name_groups
 from .polledahead import polled_ahead
 from .roomytexts import roomy_texts
@@ -17,6 +18,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(name_groups, "io", behind="number_signals"),
     Placed(start_bases, "settings", behind="explicit_to_modal"),
     Placed(said_shifts, "settings", behind="stand_first"),
+    Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(polled_ahead, "storage", behind="ahead_readings"),
     Placed(roomy_texts, "storage", behind="one_spelling"),
     Placed(signals_by_name, "storage", behind="one_spelling"),

@@ -27,7 +27,7 @@ class NameRules:
 
     predefined: frozenset[str] = frozenset()
     """Names (lower case) of the data and routines every controller has; a program's own of that name would hide it, so
-    it gets another."""
+    it gets another. Those that passes bring along keep their spelling."""
 
     started_as_module: bool = False
     """A routine `main` bears the name of its module: that is what the operator selects and starts."""
