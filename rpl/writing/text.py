@@ -153,8 +153,8 @@ class NameMangler:
     """Names of a program made legal for a target, the same way every time; `restore` gives the source's name back.
 
     One source name becomes one target name wherever it stands. `names` are all names of the program: those that are
-    legal keep their spelling, whatever the others need, and so do the controller's own. `pinned`: what some of them are called whatever else there is
-    (each legal and of one name). Taken names are compared as the target compares them.
+    legal keep their spelling, whatever the others need, and so do the controller's own. `pinned`: what some of them are
+    called whatever else there is (each legal and of one name). Taken names are compared as the target compares them.
     """
 
     __slots__ = ("_back", "_forth", "_routines", "_rules", "_source_sensitive", "_taken")

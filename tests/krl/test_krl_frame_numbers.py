@@ -16,7 +16,7 @@ RAPID = """MODULE cell
   PERS tooldata tGrip:=[TRUE,[[0,0,120],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
   ! the fixture of station three
   TASK PERS wobjdata wobj3:=[FALSE,TRUE,"",[[0,20,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-  TASK PERS wobjdata wobjBelt:=[FALSE,TRUE,"",[[0,-20,5],[0.7071067811865476,0,0,0.7071067811865476]],[[0,0,0],[1,0,0,0]]];
+  TASK PERS wobjdata wobjBelt:=[FALSE,TRUE,"",[[0,-20,5],[0.7071068,0,0,0.7071068]],[[0,0,0],[1,0,0,0]]];
   CONST robtarget pA:=[[300,0,200],[0,1,0,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   PROC main()
     MoveJ pA,v200,fine,tGrip\\WObj:=wobj3;

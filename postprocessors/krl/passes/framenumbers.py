@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
@@ -285,12 +286,17 @@ def _without_noted(program: ir.Program) -> ir.Program:
 
 
 def _count_noted(body: ir.Body, noted: dict[str, int]) -> None:
-    for one, behind in zip(body, body[1:], strict=False):
+    for one, behind in pairwise(body):
         name = _is_noted(one)
         if name and _selected(behind):
             noted[name] = noted.get(name, 0) + 1
+
+    def inside(inner: ir.Body) -> ir.Body:
+        _count_noted(inner, noted)
+        return inner
+
     for one in body:
-        rewrite_parts(one, lambda expression: expression, lambda inner: (_count_noted(inner, noted), inner)[1])
+        rewrite_parts(one, lambda expression: expression, inside)
 
 
 def _is_noted(statement: ir.Statement) -> str:
