@@ -39,7 +39,9 @@ def shown(seed: int, other_processor: bool = False) -> dict[str, object]:
     return dict(json.loads(line) for line in done.stdout.splitlines())
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    "seed", [pytest.param(seed, marks=[pytest.mark.slow] if number else []) for number, seed in enumerate(SEEDS)]
+)
 def test_nothing_hangs_on_the_last_bit(seed: int) -> None:
     assert difference(shown(0), shown(seed)) == ""
 

@@ -1,7 +1,8 @@
 """Exploring reaches at least 95 of 100 statements of every sample, whatever could not be reached counted too: what is
 left is listed with its reason in docs/reach.md.
 
-`python tests/conformance/test_conformance_reach.py` writes the page anew.
+`python tests/conformance/test_conformance_reach.py` writes the page anew. One sample in two is explored by the quick
+tests, all of them by `make test-long`.
 """
 
 from __future__ import annotations
@@ -55,7 +56,13 @@ def row_of(sample: Path, alone: Reach, reach: Reach) -> str:
     return f"| {name_of(sample)} | {numbers} | {told} |"
 
 
-@pytest.mark.parametrize("sample", SAMPLES, ids=name_of)
+@pytest.mark.parametrize(
+    "sample",
+    [
+        pytest.param(sample, id=name_of(sample), marks=[pytest.mark.slow] if number % 2 else [])
+        for number, sample in enumerate(SAMPLES)
+    ],
+)
 def test_every_sample_is_reached(sample: Path) -> None:
     alone, reach = reaches_of(sample)
     assert reach.share >= LEAST, reach.as_text()
