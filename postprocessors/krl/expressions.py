@@ -17,6 +17,8 @@ from rpl.writing.text import ALWAYS_POINT, number_text
 from . import tables
 
 _LEAVES = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral, ir.Name, ir.Aggregate)
+_PLACES = (ir.PoseType, ir.TargetType, ir.JointsType)
+_DECIMALS = 6  # of places that are worked out, mm and degrees: as many as a REAL of the controller holds
 _REAL = re.compile(r"(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+")
 _BITS = re.compile(r"'[BHbh][0-9A-Fa-f]+'")
 
@@ -252,7 +254,13 @@ class Expressions:
             inner = component_type(known, name, self.scope) if known is not None else None
             text = isinstance(inner, ir.StringType) or isinstance(value, ir.TextLiteral)
             shown = component_name(known, name) + ("[]" if text and not isinstance(inner, ir.CharType) else "")
-            nested = self.aggregate(value, typed=inner is None) if isinstance(value, ir.Aggregate) else self.text(value)
+            match value:
+                case ir.Aggregate():
+                    nested = self.aggregate(value, typed=inner is None)
+                case ir.RealLiteral(value=number, spelling="") if isinstance(known, _PLACES):
+                    nested = number_text(number, _DECIMALS, ALWAYS_POINT)
+                case _:
+                    nested = self.text(value)
             parts.append(f"{shown} {nested}")
         prefix = f"{_type_prefix(aggregate, known)}: " if typed and aggregate.type_name else ""
         return "{" + prefix + ",".join(parts) + "}"

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rpl import ir
 from rpl.writing.statements import CannotSayError
+from rpl.writing.text import number_text
 
 from . import tables
 from .expressions import Expressions
@@ -89,6 +90,13 @@ def speed_of_axes(pairs: Sequence[Pair]) -> bool:
     if isinstance(value, ir.IntLiteral | ir.RealLiteral):
         return named and 0.0 < value.value <= FULL and value.value * FULL / FULL == value.value
     return named
+
+
+def percent_text(value: ir.Expression, expressions: Expressions) -> str:
+    """The percentage of all axes: one that is worked out to two places, as people read it."""
+    if isinstance(value, ir.RealLiteral) and not value.spelling:
+        return number_text(value.value, 2)
+    return expressions.text(value)
 
 
 def grouped(pairs: Sequence[Pair]) -> list[tuple[str, ir.Expression] | Pair]:

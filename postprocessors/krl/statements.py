@@ -18,7 +18,7 @@ from . import tables
 from .declarations import constant, elements
 from .expressions import Expressions
 from .motion import Motion
-from .settings import assigned, assignment, coupled, speed_of_axes, whole_structure
+from .settings import assigned, assignment, coupled, percent_text, speed_of_axes, whole_structure
 
 GUARDED = code(
     "krl-guarded-stop",
@@ -111,7 +111,10 @@ class Printer(StatementPrinter[str]):
                 shown = self.say("assign", target=name, value=self.expressions.text(value))
                 count = len(tables.STRUCTURES[name])
             elif speed_of_axes(pairs):
-                shown, count = self.say("speed_of_axes", percent=self.expressions.text(pairs[0][1])), len(pairs)
+                shown, count = (
+                    self.say("speed_of_axes", percent=percent_text(pairs[0][1], self.expressions)),
+                    len(pairs),
+                )
             else:
                 return 0
         except CannotSayError:

@@ -101,3 +101,16 @@ def test_a_programs_own_name_of_a_table_gets_another(name: str) -> None:
     assert f'TOOL_NAME[2,]="{name}_2"' in files["$config.dat"]
     again = read_sources([source_from_bytes(one.path, one.data) for one in done.files], "krl", Diagnostics())
     assert len(again.program.modules) >= 2
+
+
+SCRIPT = """def p():
+  home = [0, -1.5708, -1.5708, -1.5708, 1.5708, 0]
+  movej(home, a=1.4, v=1.05)
+end
+"""
+
+
+def test_what_is_worked_out_has_the_digits_that_the_controller_holds() -> None:
+    lines = [line for text in krl("urscript", "p.script", SCRIPT)[0].values() for line in text]
+    assert "BAS(#VEL_PTP,33.42)" in lines
+    assert any("{A1 0.0,A2 -90.00021,A3 -90.00021,A4 -90.00021,A5 90.00021,A6 0.0}" in line for line in lines)
