@@ -4,6 +4,7 @@ moves, when a pass looks inside of a stretch.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -15,15 +16,15 @@ from rpl.passes.stretches import settled
 
 
 class Known(Protocol):
-    """What passes may change of their context (rpl.passes.legalise.context.Context is one)."""
+    """What is asked of a context besides what passes add to it (rpl.passes.legalise.context.Context is one)."""
 
     diagnostics: Diagnostics
-    taken: set[str]
-    register_names: dict[tuple[str, int], str]
-    register_types: dict[tuple[str, int], str]
-    signal_groups: dict[str, ir.Signal]
     stretches: tuple[Stretch, ...]
     before: int
+
+
+# What passes add to their context.
+_FOUND = ("taken", "register_names", "register_types", "signal_groups", "signal_names", "unreached", "flanges")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,25 +34,20 @@ class Moment:
     at: int
     program: ir.Program
     reports: int
-    taken: frozenset[str]
-    register_names: dict[tuple[str, int], str]
-    register_types: dict[tuple[str, int], str]
-    signal_groups: dict[str, ir.Signal]
+    found: dict[str, object]
 
     def restore(self, context: Known) -> None:
         del context.diagnostics.items[self.reports :]
-        context.taken = set(self.taken)
-        context.register_names, context.register_types = dict(self.register_names), dict(self.register_types)
-        context.signal_groups = dict(self.signal_groups)
+        for name, value in self.found.items():
+            setattr(context, name, copy(value))
 
 
 def note(moments: list[Moment], at: int, program: ir.Program, context: Known) -> None:
     """Add this moment; of those with the same program the last one is kept."""
     if moments and moments[-1].program is program:
         moments.pop()
-    names, types, groups = context.register_names, context.register_types, context.signal_groups
-    reports, taken = len(context.diagnostics), frozenset(context.taken)
-    moments.append(Moment(at, program, reports, taken, dict(names), dict(types), dict(groups)))
+    found = {name: copy(getattr(context, name)) for name in _FOUND}
+    moments.append(Moment(at, program, len(context.diagnostics), found))
 
 
 def moved_back(moments: list[Moment], context: Known) -> tuple[int, ir.Program]:
