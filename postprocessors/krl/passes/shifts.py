@@ -12,8 +12,8 @@ from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.externalaxes import has_external_axes
-from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
-from rpl.passes.legalise.rewriting.headdata import with_data
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
+from rpl.passes.legalise.rewriting.headdata import ShiftFrames, with_data
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -27,28 +27,21 @@ _PARTS = ("x", "y", "z")
 @legalising(sees=("function offset", "function tool_offset"))
 def said_shifts(program: ir.Program, context: Context) -> ir.Program:
     """What is neither stays a function."""
-    worker, scopes = _Shifts(context, has_external_axes(program)), ProgramScope(program)
-    modules = []
-    for module in program.modules:
-        routines = []
-        for routine in module.routines:
-            worker.scope = scopes.routine(module, routine)
-            routines.append(edit_bodies(routine, worker.body))
-        modules.append(replace(module, routines=tuple(routines)))
-    done = replace(program, modules=tuple(modules))
-    declared = [
-        ir.Variable(name.id, ir.PoseType(), value, storage="persistent", scope="global")
-        for value, name in worker.frames.items()
-    ]
-    return with_data(done, declared) if declared else done
+    worker, scopes = _Shifts(ShiftFrames(context), has_external_axes(program)), ProgramScope(program)
+
+    def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        worker.scope = scopes.routine(module, routine)
+        return edit_bodies(routine, worker.body)
+
+    done = edit_each(program, work)
+    return with_data(done, worker.shifts.declared()) if worker.shifts.names else done
 
 
 @dataclass(slots=True)
 class _Shifts:
-    context: Context
+    shifts: ShiftFrames
     external: bool
     scope: Scope = field(init=False)
-    frames: dict[ir.Aggregate, ir.Name] = field(default_factory=dict)
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -104,19 +97,10 @@ class _Shifts:
                 known = [one for one in numbers if one is not None]
                 if len(known) < len(numbers) or any(known[3:]):
                     return target
-                frame = self.frame(known[:3])
+                frame = self.shifts.frame(known[:3])
                 left, right = (frame, base) if way == "offset" else (base, frame)
                 return ir.Binary(":", left, right, origin=target.origin)
         return target
-
-    def frame(self, shift: list[float]) -> ir.Name:
-        values = dict(zip(ir.POSE, [*shift, 0.0, 0.0, 0.0], strict=True))
-        pose = ir.Aggregate(tuple((name, ir.RealLiteral(one)) for name, one in values.items()), type_name="pose")
-        if pose not in self.frames:
-            parts = [f"{name}{one:g}" for name, one in values.items() if one] or ["0"]
-            word = "shift_" + "_".join(parts).replace("-", "m").replace(".", "p")
-            self.frames[pose] = ir.Name(self.context.fresh(word))
-        return self.frames[pose]
 
 
 def _is_product(place: ir.Expression) -> bool:

@@ -12,7 +12,8 @@ from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.modalflow import in_frame
-from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
+from rpl.passes.legalise.rewriting.headdata import ShiftFrames
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -26,21 +27,18 @@ _PLAIN = (ir.Name, ir.Index, ir.Field)
 @legalising(sees=("operator :", "function compose", "function offset", "function tool_offset"))
 def places_of_moves(program: ir.Program, context: Context) -> ir.Program:
     """Frames in front of places and constant shifts are said at the move."""
-    worker = _Places(context, unchanged_in(program), _keeps_world(program))
+    worker = _Places(ShiftFrames(context), unchanged_in(program), _keeps_world(program))
     scopes = ProgramScope(program)
-    modules = []
-    for module in program.modules:
-        routines = []
-        for routine in module.routines:
-            worker.scope = scopes.routine(module, routine)
-            routines.append(edit_bodies(routine, worker.body))
-        modules.append(replace(module, routines=tuple(routines)))
-    if worker.shifts:
-        declared = tuple(ir.Variable(one.id, ir.PoseType(), value, "persistent", "global")
-                         for value, one in worker.shifts.items())  # fmt: skip
-        home = modules[0]
-        modules[0] = replace(home, declarations=(*home.declarations, *declared))
-    return replace(program, modules=tuple(modules))
+
+    def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        worker.scope = scopes.routine(module, routine)
+        return edit_bodies(routine, worker.body)
+
+    done = edit_each(program, work)
+    if not worker.shifts.names:
+        return done
+    home = replace(done.modules[0], declarations=(*done.modules[0].declarations, *worker.shifts.declared()))
+    return replace(done, modules=(home, *done.modules[1:]))
 
 
 def _keeps_world(program: ir.Program) -> bool:
@@ -61,11 +59,10 @@ def _keeps_world(program: ir.Program) -> bool:
 
 @dataclass(slots=True)
 class _Places:
-    context: Context
+    shifts: ShiftFrames
     unchanged: Unchanged
     framed: bool  # may moves select frames?
     scope: Scope = field(init=False)
-    shifts: dict[ir.Aggregate, ir.Name] = field(default_factory=dict)
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -125,20 +122,11 @@ class _Places:
                 numbers = [constant(one, self.scope, self.unchanged) for one in rest]
                 if move.relative is not None or not isinstance(base, _PLAIN) or not all(map(_is_number, numbers)):
                     return move.target
-                shift = self.shift([float(one) for one in numbers if isinstance(one, int | float)])
+                shift = self.shifts.frame([float(one) for one in numbers if isinstance(one, int | float)])
                 if name == "offset":
                     return ir.Builtin("element_sum", (base, shift), origin=move.target.origin)
                 return ir.Binary(":", base, shift, origin=move.target.origin)
         return move.target
-
-    def shift(self, numbers: list[float]) -> ir.Name:
-        values = dict(zip(ir.POSE, [*numbers, 0.0, 0.0, 0.0], strict=True))
-        pose = ir.Aggregate(tuple((name, ir.RealLiteral(one)) for name, one in values.items()), type_name="pose")
-        if pose not in self.shifts:
-            parts = [f"{name}{one:g}" for name, one in values.items() if one] or ["0"]
-            name = "shift_" + "_".join(parts).replace("-", "m").replace(".", "p")
-            self.shifts[pose] = ir.Name(self.context.fresh(name))
-        return self.shifts[pose]
 
 
 def _is_number(value: object) -> bool:
