@@ -1,3 +1,15 @@
-"""What is known of a program: effects, uses, settings and places in force, values, order of moves. Nothing is
-rewritten here.
+"""What is known of a program. Nothing is rewritten here. Which file answers which question:
+
+- What holds in front of each statement, on every way there? A subclass of `forward` (the one walk over branches, loops,
+  labels, calls, handlers) that says what a statement changes; backward, what is wanted later: `liveness`.
+- Which settings hold at a move? As the program says them: `modalflow.Flow`. Tool and frame as poses, and which moves a
+  written target serves: `flow.ModalFlow`, `flow.Uses`.
+- What does a variable hold here? The same value on every way: `heldvalues`. Over the whole program: texts `heldtexts`,
+  whole numbers `wholes`, bounds of subscripts `intervals`, set once at the start `beginning` (asked by
+  `rewriting.walk.unchanged_in`). Places made in the lines in front: `straightplaces`; read before it is set:
+  `firstreads`; worked out of taught data: `taughtvalues`.
+- Where is the robot? Before each move: `whereabouts`. Does it stand, or is it at a corner: `cornerways`. Which move
+  follows which: `moveorder`; how far apart: `ways`.
+- Who changes and reads what? `usage`, `effects`, `mentioned`; beside the program: `runbeside`. Where it begins and
+  what calls what: `entries`, `activations`. While an interrupt is armed: `reach`; errors that get out: `raising`.
 """
