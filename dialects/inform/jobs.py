@@ -91,10 +91,6 @@ class Job:
         """The tool of what has none of its own: the first that the header names."""
         return next((int(value) for name, value in self.header if name == "TOOL" and value.isdigit()), 0)
 
-    @property
-    def relative(self) -> bool:
-        return any(name == "ATTR" and "RJ" in value.split(",") for name, value in self.header)
-
 
 @dataclass(slots=True)
 class _State:

@@ -132,13 +132,14 @@ RULES = (
     ),
     Rule(
         "inform-relative",
-        "a job with Cartesian positions is relative and names its frame",
+        "a job whose steps are Cartesian (C, not variables P) is relative and names its frame",
         "its positions are not loaded",
         "write ///ATTR SC,RW,RJ and ////FRAME USER 1 (or BASE)",
         f"{_FORMAT}; {_JOBS}",
         Trust.COUNTED,
         having(
-            r"^///POSTYPE[ \t]+(?:BASE|ROBOT|USER|MTOOL|TOOL)(?=[\s\S]*?^(///ATTR[^\r\n]*)\r?\n(?!/{3,4}FRAME))",
+            r"^///POSTYPE[ \t]+(?:BASE|ROBOT|USER|MTOOL|TOOL)\b(?=(?:(?!^///POSTYPE|^//INST)[\s\S])*?^C\d+[ \t]*=)"
+            r"(?=[\s\S]*?^(///ATTR[^\r\n]*)\r?\n(?!/{3,4}FRAME))",
         ),
     ),
     Rule(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
@@ -185,10 +186,19 @@ class Job:
             header=self.header(),
             date=_DATE,
             comment=ascii_text(self.comment)[:32].strip(),
+            frame=self.relative_to(),
             groups=groups,
             lines=laid_out(self.lines, say),
         )
         return "\r\n".join((*lines, ""))
+
+    def relative_to(self) -> str:
+        """The frame of a relative job, whose steps are poses: that of most of them. Empty: it has no such step."""
+        frames = Counter(kept.frame for kept in (*self.points, *self.further.values()) if kept.position.kind == "pose")
+        if not frames:
+            return ""
+        (most, _), *_ = frames.most_common(1)
+        return f"USER {most}" if most else "BASE"
 
     def header(self) -> list[str]:
         points = [(number, kept) for kept, number in self.points.items()] + list(self.further.items())

@@ -128,6 +128,7 @@ CASES = [
     ("inform", INFORM, "JUMP", "*AGAIN\nJUMP", [("inform-label-once", 15)]),
     ("inform", INFORM, "*AGAIN\n", "*AGAINAGAIN\n*AGAIN\n", [("inform-label-length", 13)]),
     ("inform", INFORM, "///PULSE", "///POSTYPE USER\n///RECTAN", [("inform-relative", 10)]),
+    ("inform", INFORM, "//INST", "///POSTYPE USER\n///RECTAN\nP00000=1.0,2.0,3.0,0.0,0.0,0.0\n//INST", []),
     ("inform", INFORM, "JUMP", "SET B000 256\nJUMP", [("inform-byte", 15)]),
     ("inform", INFORM, "JUMP", "SET I000 32768\nJUMP", [("inform-integer", 15)]),
     ("inform", INFORM, "JUMP", f'SET S000 "{LONG}"\nJUMP', [("inform-text", 15)]),

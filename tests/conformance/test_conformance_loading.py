@@ -20,7 +20,6 @@ OPEN = {
     "tp-text-comparison": "texts are compared by a jump only",
     "tp-text-argument": "as texts in registers",
     "tp-system-variable": "a free register keeps the number of the frame in force",
-    "inform-relative": "jobs with poses name no frame in their attributes",
     "krl-reserved": "names of the source's own KRL",
 }
 LANGUAGES = sorted(folder.name for folder in SAMPLES.iterdir() if folder.is_dir())
