@@ -35,7 +35,7 @@ BAD_VALUE = code(
     "this line of the controller's values cannot be read: {text}",
     "take the file from the controller anew",
 )
-_DUMP = re.compile(r"\A\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t]*$", re.MULTILINE)
+_DUMP = re.compile(r"\A\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t\r]*$", re.MULTILINE)
 _HEAD = re.compile(r"//(TOOL|UFRAME)[ \t]+(\d+)\s*\Z")
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _NUMBERS = re.compile(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})*\Z")

@@ -310,8 +310,9 @@ class Assignments:
         """What is whole counts comes first, constants come last."""
         if constant(term) is not None:
             return 2
-        place = simple(term)
-        whole = place is not None and bank_of(place) in tables.WHOLE and counts == int(counts)
+        inner, times = whole_product(term)
+        place = simple(inner)
+        whole = place is not None and bank_of(place) in tables.WHOLE and times * counts == int(times * counts)
         return 0 if whole or self.component_read(term, counts) is not None else 1
 
     def component_read(self, term: ir.Expression, counts: float) -> tuple[ir.Expression, int] | None:
@@ -326,15 +327,17 @@ class Assignments:
 
     def count(self, whole: str, term: ir.Expression, counts: float) -> None:
         """whole := the term in counts."""
-        read, place = self.component_read(term, counts), simple(term)
+        read = self.component_read(term, counts)
+        term, times = whole_product(term)
+        factor = times * counts
         if read is not None:
             self.lines.append(f"GETE {whole} {self.positions.as_variable(read[0])} ({read[1]})")
-        elif place is not None and bank_of(place) in tables.WHOLE and counts == int(counts):
-            self.lines.extend([f"SET {whole} {place}", f"MUL {whole} {int(counts)}"])
+        elif (place := simple(term)) is not None and bank_of(place) in tables.WHOLE and factor == int(factor):
+            self.lines.extend([f"SET {whole} {place}", f"MUL {whole} {int(factor)}"])
         else:
             real = self.registers.helper("R")
             self.number(real, term)
-            self.lines.append(f"MUL {real} {float(counts)!r}")
+            self.lines.append(f"MUL {real} {float(factor)!r}")
             self.lines.extend(rounded(real, whole))
 
 
@@ -348,6 +351,19 @@ def summands(value: ir.Expression, sign: int = 1) -> list[tuple[int, ir.Expressi
         case ir.Convert(how="real", operand=operand):
             return summands(operand, sign)
     return [(sign, value)]
+
+
+def whole_product(term: ir.Expression) -> tuple[ir.Expression, float]:
+    """A variable and the constant that it is multiplied by."""
+    match term:
+        case ir.Binary(op="*", left=left, right=right):
+            for one, other in ((left, right), (right, left)):
+                times = constant(other)
+                if times is not None and simple(one) is not None and constant(one) is None:
+                    return one, float(times)
+        case ir.Convert(how="real", operand=operand):
+            return whole_product(operand)
+    return term, 1.0
 
 
 def component(name: str) -> tuple[int, int]:

@@ -67,6 +67,7 @@ CAPABILITIES = Capabilities(
     places=Places(
         notation="inform",
         rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.TURNS, PlaceRule.UNTYPED)),
+        move_functions=frozenset(("displaced",)),  # SFTON
     ),
     motion=Motion(
         concurrent=Concurrent.MOVES,
@@ -123,6 +124,7 @@ CAPABILITIES = Capabilities(
             "TargetType": tables.P,
             "JointsType": tables.P,
         },
+        own=frozenset((tables.TL, tables.UF)),
         points=tables.POINTS,
     ),
 )

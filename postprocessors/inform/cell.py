@@ -1,22 +1,22 @@
 """What all jobs share: numbers of tools and user frames, and position variables that hold constants.
 
 A constant position that is needed as a variable is kept in a position variable of its own, whose value stands in the
-header of every job that uses it. Tools and user frames get their values by SETTOOL and MFRAME at the start.
+header of every job that uses it. Constant tools and user frames have their values in the controller's files TOOL.CND
+and UFRAME.CND; a tool that is kept in a variable gets its value by SETTOOL.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rpl import ir
 from rpl.ir.standing import NOTHING, Standing
 from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .operands import Registers
-from .places import WORLD, Position, Values, product
-
-_ARM_MM = 100.0  # how far the points that define a user frame are from its origin
+from .operands import Registers, selected
+from .places import WORLD, Position, Values
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,10 +38,9 @@ class Cell:
     tool_of_variables: int = 0
     several_tools: bool = False  # moves are driven with different tools
     kept: dict[Kept, int] = field(default_factory=dict)
-    tools: dict[Values, int] = field(default_factory=dict)
-    frames: dict[Values, int] = field(default_factory=dict)
+    tools: dict[int, Values] = field(default_factory=dict)
+    frames: dict[int, Values] = field(default_factory=dict)
     by_variable: dict[str, int] = field(default_factory=dict)
-    last_tool: int = 0
     there: Standing = NOTHING  # the controller's tools and frames in use are given to nothing else
     external: int = 0
     bases: int = 0
@@ -58,14 +57,23 @@ class Cell:
             self.kept[what] = self.registers.take("P")
         return self.kept[what]
 
-    def tool(self, value: Values) -> int:
-        """The number of a constant tool; 0 is the flange."""
+    def give(self, values: Mapping[tuple[str, int], Position]) -> None:
+        """The tools and frames that have got their numbers already."""
+        self.tools.update({number: one.values for (bank, number), one in values.items() if bank == tables.TL})
+        self.frames.update({number: one.values for (bank, number), one in values.items() if bank == tables.UF})
+
+    def tool(self, value: Values, said: ir.Expression | None = None) -> int:
+        """The number of a constant tool, that which is `said` or one with this value; 0 is the flange."""
+        named = None if said is None else selected(said)
+        if named is not None:
+            return named[1]
         if value == WORLD:
             return 0
-        if value not in self.tools:
-            number = self.there.like("TL", value)
-            self.tools[value] = self._next_tool() if number is None else number
-        return self.tools[value]
+        number = _number_of(self.tools, value, self.there.like(tables.TL, value))
+        if number is None:
+            number = self._next_tool()
+        self.tools[number] = value
+        return number
 
     def tool_in(self, place: str) -> int:
         """The number of a tool that is kept in a position variable."""
@@ -74,47 +82,40 @@ class Cell:
         return self.by_variable[place]
 
     def _next_tool(self) -> int:
-        self.last_tool += 1
-        while self.last_tool in self.there.of("TL"):
-            self.last_tool += 1
-        if self.last_tool > tables.TOOLS:
+        taken = {*self.tools, *self.by_variable.values(), *self.there.of(tables.TL)}
+        free = next((one for one in range(1, tables.TOOLS + 1) if one not in taken), None)
+        if free is None:
             raise CannotSayError(f"there are only {tables.TOOLS} tools")
-        return self.last_tool
+        return free
 
-    def frame(self, value: Values) -> int:
-        """The number of a constant user frame; 0 stands for the base."""
+    def frame(self, value: Values, said: ir.Expression | None = None) -> int:
+        """The number of a constant user frame, that which is `said` or one with this value; 0 stands for the base."""
+        named = None if said is None else selected(said)
+        if named is not None:
+            return named[1]
         if value == WORLD:
             return 0
-        if value not in self.frames:
-            number = self.there.like("UF", value)
-            taken = {*self.frames.values(), *self.there.of("UF")}
-            free = (one for one in range(1, tables.USER_FRAMES + 1) if one not in taken)
-            self.frames[value] = next(free, 0) if number is None else number
-            if self.frames[value] == 0:
-                del self.frames[value]
-                raise CannotSayError(f"there are only {tables.USER_FRAMES} user frames")
-        return self.frames[value]
+        number = _number_of(self.frames, value, self.there.like(tables.UF, value))
+        if number is None:
+            taken = {*self.frames, *self.there.of(tables.UF)}
+            number = next((one for one in range(1, tables.USER_FRAMES + 1) if one not in taken), None)
+        if number is None:
+            raise CannotSayError(f"there are only {tables.USER_FRAMES} user frames")
+        self.frames[number] = value
+        return number
 
     def value_of_tool(self, number: int) -> Values | None:
         """None for a tool that is kept in a variable."""
-        if number == 0:
-            return WORLD
-        return next((value for value, n in self.tools.items() if n == number), None)
+        return WORLD if number == 0 else self.tools.get(number)
 
     def value_of_frame(self, number: int) -> Values:
-        return next((value for value, n in self.frames.items() if n == number), WORLD)
+        return self.frames.get(number, WORLD)
 
-    def setup(self) -> Iterator[tuple[str, tuple[int, ...]]]:
-        """The instructions that give tools and frames their values, with the position variables in them."""
-        for value, number in self.tools.items():
-            if ("TL", number) in self.there.poses:
-                continue  # the controller has it
-            kept = self.keep(Kept(Position("pose", value)))
-            yield f"SETTOOL TL#({number}) P{kept:03d}", (kept,)
-        for value, number in self.frames.items():
-            if ("UF", number) in self.there.poses:
-                continue
-            ways = (WORLD, (_ARM_MM, *WORLD[1:]), (0.0, _ARM_MM, *WORLD[2:]))
-            points = tuple(self.keep(Kept(Position("pose", product(value, way)))) for way in ways)
-            shown = " ".join(f"P{one:03d}" for one in points)
-            yield f"MFRAME UF#({number}) {shown}", points
+    def conditions(self, bank: str) -> dict[int, Values]:
+        """The tools or user frames whose values go beside the jobs: those that the controller has not."""
+        given = self.tools if bank == tables.TL else self.frames
+        return {number: one for number, one in sorted(given.items()) if (bank, number) not in self.there.poses}
+
+
+def _number_of(given: Mapping[int, Values], value: Values, there: int | None) -> int | None:
+    return next((number for number, known in given.items() if known == value), there)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import zip_longest
 
@@ -100,6 +100,7 @@ class Motion:
     stands: bool = False  # the move before ended in a stop
     running: bool = False  # the move before has NWAIT
     corners: bool = False  # moves of this program go round corners, and this job does not run beside it
+    shift: str = ""  # what the move at hand is shifted by, and the axes
     before: Goal | None = None  # where the move before the last one went, when that was an arc
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
@@ -119,7 +120,7 @@ class Motion:
 
     def move(self, move: ir.Move, done: list[str]) -> list[str]:
         """The lines of a move behind those that are `done`; the move before may become the start of an arc."""
-        self.positions.lines = []
+        self.positions.lines, self.shift = [], ""
         self.refuse(move)
         tool = self.tool(move.tool)
         if move.relative is not None:
@@ -127,7 +128,7 @@ class Motion:
         elif move.kind in tables.MOVES:
             goal = self.goal(move.target, move, tool)
             known = self.positions.constants.known(move.target)
-            if known is not None and known.kind == "pose":
+            if known is not None and known.kind == "pose" and not self.shift:
                 goal.seen = Seen(known, move.frame, self.positions.changes)
             shown = f"{tables.MOVES[move.kind]} {goal.place}"
         else:
@@ -138,13 +139,17 @@ class Motion:
         if move.kind == "circular" and move.relative is None:
             self.arc(move, tool, speed, done, led, beside)
         line = " ".join(part for part in (led + shown, *speed, *blend, *ending) if part)
+        if self.shift:
+            self.lines.append(f"SFTON {self.shift}")
         self.lines.append(line if move.relative is not None else self.with_axes(line, goal.place, beside))
         self.before = self.last if self.last is not None and self.last.arc else None
         goal.arc = move.kind == "circular"
         self.last, self.stands, self.running = goal, blend[:1] == ["PL=0"] and not move.concurrent, move.concurrent
         self.line_of_last = len(done) + len(self.lines) - 1
         self.positions.job.moves = True
-        if move.search is not None or move.relative is not None:
+        if self.shift:
+            self.lines.append("SFTOF")
+        if move.search is not None or move.relative is not None or self.shift:
             self.line_of_last = None
             self.last = self.last if move.search is None else None
         return self.lines
@@ -216,9 +221,12 @@ class Motion:
         base = Position("pose", WORLD) if frame is None else constants.known(frame)
         while isinstance(target, ir.Builtin) and target.function in ("joints_to_target", "pose_of"):
             target = target.arguments[0]
+        shifted = None if move.kind == "circular" or base is None else self.shifted(target, frame)
+        if shifted is not None:
+            target, self.shift = shifted
         known = constants.known(target)
         if known is not None and (base is not None or known.kind == "joints"):
-            number = 0 if base is None else job.cell.frame(base.values)
+            number = 0 if base is None else job.cell.frame(base.values, frame)
             wanted = self.names.get(target.id) if isinstance(target, ir.Name) else None
             if known.kind == "joints" and job.taught_scale is None and job.cell.value_of_tool(tool) is None:
                 return Goal(self.with_computed_tool(known, tool), tool, 0, None)
@@ -229,7 +237,7 @@ class Motion:
                     job.cell.stands(job.name, constants.name(one), f"UF#({number})")
                     if one is not frame and (shown := element(one)) is not None:
                         job.cell.stands(job.name, constants.name(one), shown)
-            return Goal(point, tool, number, known)
+            return Goal(point, tool, number, None if self.shift else known)
         if self.is_joints(target):
             return Goal(self.positions.as_variable(target), tool, 0, None)
         if base is None or base.values != WORLD:
@@ -248,6 +256,18 @@ class Motion:
         elif tool != job.tool:
             place = self.positions.with_tool(place, tool)
         return Goal(place, tool, 0, None)
+
+    def shifted(self, target: ir.Expression, frame: ir.Expression | None) -> tuple[ir.Expression, str] | None:
+        """The taught point of a shifted place, and what shifts it: `P010 UF#(2)`."""
+        match target:
+            case ir.Builtin(function="displaced", arguments=(point, ir.Name() | ir.Index() as shift)):
+                known, place, cell = self.positions.constants.known(point), element(shift), self.positions.job.cell
+                base = Position("pose", WORLD) if frame is None else self.positions.constants.known(frame)
+                if known is None or known.kind != "pose" or place is None or base is None:
+                    return None
+                number = cell.frame(base.values, frame)
+                return point, f"{place} UF#({number})" if number else f"{place} BF"
+        return None
 
     def with_computed_tool(self, joints: Position, tool: int) -> str:
         """Joints whose tool is kept in a variable: the flange's posture, and the components of flange . tool."""
@@ -278,7 +298,7 @@ class Motion:
             raise CannotSayError("a relative move in joints or on a circle")
         if frame is None:
             return Goal("", tool, 0, None), f"IMOV {self.turned_way(move, way, tool)} BF"
-        number = job.cell.frame(frame.values)
+        number = job.cell.frame(frame.values, move.frame)
         place = self.positions.as_variable(move.target) if way is None else job.constant(way, tool)
         if way is None and (tool != job.tool or job.cell.tool_of_variables != tool):
             place = self.positions.with_tool(place, tool)
@@ -341,7 +361,7 @@ class Motion:
             return Goal(job.point_of(Position("joints", values), tool, 0, None), tool, 0, Position("joints", values))
         if move.relative == "tool":
             found = product(start.values, way.values)
-        elif not any(way.values[3:]) and job.cell.frame(frame.values) == last.frame:
+        elif not any(way.values[3:]) and job.cell.frame(frame.values, move.frame) == last.frame:
             found = (*(a + b for a, b in zip(start.values[:3], way.values[:3], strict=True)), *start.values[3:])
         else:
             return None
@@ -394,7 +414,9 @@ class Motion:
         known = Position("pose", WORLD) if one.seen.frame is None else self.positions.constants.known(one.seen.frame)
         if known is None:
             return None
-        place = self.positions.job.point_of(target, tool, self.positions.job.cell.frame(known.values), None)
+        place = self.positions.job.point_of(
+            target, tool, self.positions.job.cell.frame(known.values, one.seen.frame), None
+        )
         line = " ".join(("MOVL", place, *speed, f"CR={tables.TAGS['CR'][0]:.1f}"))
         return [self.with_axes(line, place)]
 
@@ -511,3 +533,29 @@ class Motion:
                 raise CannotSayError("UNTIL looks at one input")
             found.append(f"UNTIL {condition}")
         return found
+
+
+# Instructions during which a shift may hold; of those with a variable first, one that is not the shift's.
+_QUIET = ("'", "DOUT ", "PULSE ", "TIMER ", "WAIT ", "MSG ", "AOUT ", "DIN ", "CLS")
+_CHANGING = ("SET ", "ADD ", "SUB ", "MUL ", "DIV ", "INC ", "DEC ", "SETE ", "GETE ")
+
+
+def joined_shifts(lines: Sequence[str]) -> list[str]:
+    """The lines without a shift that ends and begins again in the same way before the next move."""
+    done: list[str] = []
+    ended: int | None = None  # the place of the last SFTOF, as long as nothing but quiet instructions follows
+    shift = ""
+    for line in lines:
+        if line.startswith("SFTON "):
+            if ended is not None and line == shift:
+                del done[ended]
+                ended = None
+                continue
+            shift, ended = line, None
+        elif line == "SFTOF":
+            ended = len(done)
+        elif not line.startswith(_QUIET):
+            quiet = line.startswith(_CHANGING) and shift != "" and line.split()[1] != shift.split()[1]
+            ended = ended if quiet else None
+        done.append(line)
+    return done

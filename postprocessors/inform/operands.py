@@ -101,6 +101,14 @@ def numbered(expression: ir.Expression) -> tuple[str, int] | None:
     return None
 
 
+def selected(expression: ir.Expression) -> tuple[str, int] | None:
+    """Bank and number of a tool or a user frame of the controller."""
+    match expression:
+        case ir.Index(base=ir.Name(id=tables.TL | tables.UF as bank), indices=(ir.IntLiteral(value=number),)):
+            return bank, number
+    return None
+
+
 def element(expression: ir.Expression) -> str | None:
     """`D004`, `P[D004]`; None when it is no numbered variable."""
     place = numbered(expression)

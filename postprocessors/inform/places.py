@@ -17,7 +17,7 @@ from rpl.passes.legalise.facts.entries import INITIALISE
 from rpl.passes.rewrite import rewrite_parts
 
 from . import tables
-from .operands import constant, numbered
+from .operands import constant, numbered, selected
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
@@ -188,7 +188,7 @@ class Constants:
             for declaration in module.declarations:
                 if isinstance(declaration, ir.Initialise):
                     given = position_of(declaration.assign.value)
-                    place = numbered(declaration.assign.target)
+                    place = numbered(declaration.assign.target) or selected(declaration.assign.target)
                     if place is not None and given is not None:
                         before[place] = given
             for routine in module.routines:
@@ -205,7 +205,7 @@ class Constants:
                             first[place] = known
         joints = _joint_variables(program)
         if chosen:
-            return cls(joints=joints)
+            return cls({at: one for at, one in before.items() if at[0] not in tables.BANKS}, joints=joints)
         once = {place: value for place, value in first.items() if assigned[place] == 1}
         values = once | {place: value for place, value in before.items() if not assigned[place]}
         return cls(values, joints=joints)
@@ -218,7 +218,7 @@ class Constants:
         """The source's name of a taught point, or of a variable that is set once; empty for what is written out."""
         if isinstance(expression, ir.Name) and expression.id in self.points:
             return self.names.get(expression.id, "")
-        place = numbered(expression)
+        place = numbered(expression) or selected(expression)
         return "" if place is None or place not in self.values else self.names.get(f"{place[0]}{place[1]}", "")
 
     def operands(self, expression: ir.Expression) -> list[ir.Expression]:
@@ -276,7 +276,7 @@ class Constants:
                 if one is None or other is None or "joints" in (one.kind, other.kind):
                     return None
                 return Position("pose", product(one.values, other.values))
-        place = numbered(expression)
+        place = numbered(expression) or selected(expression)
         return None if place is None else self.values.get(place)
 
 

@@ -175,7 +175,7 @@ class Positions:
         """The tool's number; one that is kept in a variable is set first."""
         known = self.constants.known(tool)
         if known is not None:
-            return self.job.cell.tool(known.values)
+            return self.job.cell.tool(known.values, tool)
         place = self.as_variable(tool)
         number = self.job.cell.tool_in(place)
         if self.in_tools.get(number) != place:
@@ -235,7 +235,7 @@ class Positions:
             known = self.constants.known(more[0])
             if known is None:
                 raise CannotSayError("a conversion with a computed tool")
-            number = self.job.cell.tool(known.values)
+            number = self.job.cell.tool(known.values, more[0])
             tool = f" TL#({number})"
         frame = more[1] if len(more) > 1 else ir.System("null_frame")
         framed = frame not in (ir.System("null_frame"), ir.System("world"))

@@ -30,6 +30,8 @@ WHOLE: Final = ("B", "I", "D")
 RANGES: Final[Mapping[str, tuple[int, int]]] = {
     bank: (int(least), int(_WORDS.numbers("largest")[bank])) for bank, least in _WORDS.numbers("least").items()
 }
+TL: Final = "TL"  # the controller's tools
+UF: Final = "UF"  # its user frames
 TOOLS: Final = int(_NUMBERS["tools"])
 USER_FRAMES: Final = int(_NUMBERS["user_frames"])
 

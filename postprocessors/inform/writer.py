@@ -20,12 +20,13 @@ from rpl.writing.templates import macros_of
 from . import tables
 from .assignments import Assignments
 from .cell import Cell
+from .conditionfiles import condition_files
 from .facts.positions import counts_joints, filled, goes_round_corners, goes_to_joints
 from .facts.tasks import jobs_beside, started_first, sub_tasks
 from .job import Job, winding
 from .labels import Labels
-from .motion import Motion
-from .operands import Registers, element, numbered
+from .motion import Motion, joined_shifts
+from .operands import Registers, element, numbered, selected
 from .places import WORLD, Constants, Position
 from .positions import Positions
 from .statements import Printer
@@ -58,6 +59,7 @@ LONG_NAME = code(
     "inform-long-name", Severity.ERROR, "{name}: a job's name has at most {most} characters", "rename the routine"
 )
 
+_BANKS = (*tables.BANKS, tables.TL, tables.UF)
 _MOVING = (ir.Move, ir.MoveExternal, ir.Spline, ir.Vendor, ir.Opaque)
 
 
@@ -72,7 +74,8 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     writer.finish(jobs)
     ledger.check(program)
     say = macros_of(__package__, context.templates)
-    return [OutputFile(f"{job.name}.JBI", job.text(say).encode("ascii")) for job in jobs]
+    files = [OutputFile(f"{job.name}.JBI", job.text(say).encode("ascii")) for job in jobs]
+    return [*files, *condition_files(writer.cell, writer.constants.names)]
 
 
 class _Writer:
@@ -84,6 +87,7 @@ class _Writer:
         self.choose_axes()
         self.entries = started_first(program)
         self.constants = Constants.of(program, self.entries)
+        self.cell.give(self.constants.values)
         self.constants.names = {f"{bank}{number}": name for (bank, number), name in context.register_names.items()}
         self.tasks = sub_tasks(program)
         self.jobs = {
@@ -153,7 +157,7 @@ class _Writer:
         known = constants.known(move.tool)
         try:
             if known is not None:
-                return self.cell.tool(known.values)
+                return self.cell.tool(known.values, move.tool)
             place = element(move.tool)
             return 0 if place is None else self.cell.tool_in(place)
         except CannotSayError:
@@ -174,7 +178,10 @@ class _Writer:
     def declaration(self, declaration: ir.Declaration) -> Iterator[str]:
         """Numbered variables need no declaration; what is none has no place."""
         match declaration:
-            case ir.Variable(name=name) if numbered(ir.Name(name)) is not None or name in tables.BANKS:
+            case ir.Variable(name=name) if numbered(ir.Name(name)) is not None or name in _BANKS:
+                self.ledger.merged(declaration)
+                return
+            case ir.Initialise(assign=assign) if selected(assign.target) is not None:
                 self.ledger.merged(declaration)
                 return
             case ir.Initialise(assign=assign):
@@ -211,7 +218,7 @@ class _Writer:
                 printer.lines.extend(self.declaration(declaration))
         printer.body(routine.body, last=True)
         self.lost_parts(routine)
-        job.lines, job.entry = job.in_steps(printer.lines), routine.name.lower() in self.entries
+        job.lines, job.entry = job.in_steps(joined_shifts(printer.lines)), routine.name.lower() in self.entries
         return job
 
     def printer(self, routine: ir.Routine, job: Job) -> Printer:
@@ -239,7 +246,7 @@ class _Writer:
     # ---- the whole
 
     def finish(self, jobs: list[Job]) -> None:
-        """Values of tools and user frames, and tasks that run beside, at the start of each job that may be started."""
+        """First values, and tasks that run beside, at the start of each job that may be started."""
         for (job_name, name), places in sorted(self.cell.copies.items()):
             if len(places) > 1:
                 shown = ", ".join(sorted(places))
@@ -249,16 +256,14 @@ class _Writer:
         if count > tables.MOST_SUBTASKS:
             self.diagnostics.report(MANY_TASKS, NOWHERE, count=count, most=tables.MOST_SUBTASKS)
         first = {job.name: self.first_values(job) for job in jobs if job.entry}
-        setup = list(self.cell.setup())
         for job in jobs:
             if not job.entry:
                 continue
             at = next((n for n, line in enumerate(job.lines) if not line.startswith("'")), len(job.lines))
-            begin = [*first[job.name], *(line for line, _ in setup)]
+            begin = first[job.name]
             for n, task in enumerate(background, len(self.tasks) + 1):
                 begin.append(f"PSTART JOB:{self.jobs.get(task.entry.lower(), task.entry.upper())} SUB{n}")
             job.lines[at:at] = begin
-            job.positions.update(number for _, numbers in setup for number in numbers)
         for task in background:
             for job in jobs:
                 if task.cyclic and job.name == task.entry.upper():

@@ -7,10 +7,14 @@ from rpl.passes.legalise.stages import Placed
 
 from .dialogs import number_dialogs
 from .flagbytes import flags_in_bytes
+from .framenumbers import frame_numbers
+from .shiftedpoints import shifted_points
 from .watches import counted_watches
 
 PASSES: tuple[Placed, ...] = (
     Placed(counted_watches, "io", behind="timers_to_clocks"),
+    Placed(frame_numbers, "settings", behind="stand_first"),
+    Placed(shifted_points, "settings", behind="stand_first"),
     Placed(number_dialogs, "statements", behind="decide_logic"),
 )
 LAST = (flags_in_bytes,)

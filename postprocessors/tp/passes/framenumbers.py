@@ -8,17 +8,15 @@ What is in force at a move stands at the move, for the points of the listing (UF
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
-from rpl.passes import rigid
-from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.forward import reactions
+from rpl.passes.legalise.facts.framenumbers import Table, is_none, key_of, names_in, tables_of
 from rpl.passes.legalise.facts.modalflow import Flow, in_frame
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -26,16 +24,11 @@ from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
-from rpl.passes.values import pose_of
 
 from .. import tables
 
 HOME = "frames"
-_DIGITS = re.compile(r"(\d+)\D*\Z")
 _HARMLESS = (ir.Nothing, ir.Wait, ir.WaitUntil, ir.Message, ir.Clock, ir.Assign)
-
-# Data as a program says it, and which declarations its names mean there.
-Key = tuple[ir.Expression, tuple[int, ...]]
 
 
 @legalising(sees=("system tool", "system base"))
@@ -45,7 +38,7 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
         return program
     scopes = ProgramScope(program)
     unchanged = unchanged_in(program)
-    made = _tables(program, scopes, unchanged, context)
+    made = tables_of(_selections(program, scopes), tables.SELECTED, unchanged, context)
     modules = []
     for module in program.modules:
         routines = []
@@ -53,21 +46,21 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
             numbered = partial(_with_numbers, made, unchanged.assigned, scopes.routine(module, routine))
             routines.append(edit_bodies(routine, numbered))
         modules.append(replace(module, routines=tuple(routines)))
-    declared = tuple(map(_declaration, made))
+    declared = tuple(table.declaration() for table in made.values())
     home = ir.Module(context.fresh(HOME), program.modules[0].dialect, declared, public=True)
     done = selected_once(replace(program, modules=(*modules, home)), context)
-    values = tuple(_value(name, number, pose) for name in made for number, pose in made[name].values.items())
+    values = tuple(one for table in made.values() for one in table.initials())
     return replace(done, modules=(*done.modules[:-1], replace(home, declarations=(*declared, *values))))
 
 
-def _with_numbers(made: Mapping[str, _Table], assigned: set[str], scope: Scope, body: ir.Body) -> ir.Body:
+def _with_numbers(made: Mapping[str, Table], assigned: set[str], scope: Scope, body: ir.Body) -> ir.Body:
     """The statements with numbers for data as a whole; a component of it is looked at in a register, as the controller
     looks at none of its frames."""
 
     def numbered(expression: ir.Expression) -> ir.Expression | None:
-        if _names(expression) & assigned:
+        if names_in(expression) & assigned:
             return None  # the program sets it, if only to this value
-        numbers = ((name, table.numbers.get(_key(expression, scope))) for name, table in made.items())
+        numbers = ((name, table.numbers.get(key_of(expression, scope))) for name, table in made.items())
         return next((element(name, number) for name, number in numbers if number), None)
 
     def held(place: ir.Expression) -> ir.Expression:
@@ -92,7 +85,7 @@ def _with_numbers(made: Mapping[str, _Table], assigned: set[str], scope: Scope, 
     def each(statement: ir.Statement) -> ir.Statement:
         match statement:
             case ir.Assign(target=ir.System(name=name), value=value) if name in made:
-                number = made[name].numbers.get(_key(value, scope))
+                number = made[name].numbers.get(key_of(value, scope))
                 return statement if number is None else replace(statement, value=element(name, number))
             case ir.Move():
                 return statement  # what it goes to is a point or a register, not an element of the table
@@ -109,117 +102,14 @@ def element(name: str, number: int) -> ir.Index:
     return ir.Index(ir.Name(tables.SELECTED[name][0]), (ir.IntLiteral(number),))
 
 
-# ---- which data has a number
-
-
-@dataclass(slots=True)
-class _Table:
-    """The numbers of one kind: those of data, and the value behind each."""
-
-    numbers: dict[Key, int] = field(default_factory=dict)
-    values: dict[int, rigid.Pose] = field(default_factory=dict)
-
-
-def _tables(program: ir.Program, scopes: ProgramScope, unchanged: Unchanged, context: Context) -> dict[str, _Table]:
-    """The numbers that tools and frames get, in the order in which the program uses them."""
-    found: dict[str, dict[Key, rigid.Pose]] = {name: {} for name in tables.SELECTED}
-    changing: dict[str, set[Key]] = {name: set() for name in tables.SELECTED}
-    world: set[Key] = set()
+def _selections(program: ir.Program, scopes: ProgramScope) -> Iterator[tuple[str, ir.Expression, Scope]]:
     for module in program.modules:
         for routine in module.routines:
             scope = scopes.routine(module, routine)
             for node in walk(*bodies(routine)):
                 match node:
-                    case ir.Assign(target=ir.System(name=name), value=value) if name in found and not _is_none(value):
-                        pose = pose_of(constant(value, scope, unchanged)) if _is_shared(value, scope) else None
-                        if pose == rigid.IDENTITY and name == "base" and _names(value) & unchanged.assigned:
-                            world.add(_key(value, scope))
-                        elif pose is None:
-                            changing[name].add(_key(value, scope))
-                        else:
-                            found[name][_key(value, scope)] = pose
-    made = {name: _numbered(name, found[name], len(changing[name]), context) for name in tables.SELECTED}
-    made["base"].numbers.update(dict.fromkeys(world, 0))
-    return made
-
-
-def _numbered(name: str, found: Mapping[Key, rigid.Pose], changing: int, context: Context) -> _Table:
-    """`changing`: as many numbers are left for what the run decides, and one for the flange."""
-    bank, most = tables.SELECTED[name]
-    earlier = {label: number for (kind, number), label in context.registers.items() if kind == bank}
-    there = context.there
-    mine = {number for kind, number in context.registers if kind == bank}
-    in_use = there.of(bank) - mine
-    wanted = {
-        key: earlier.get(_label(key)) or there.like(bank, _values(pose)) or _own_number(key)
-        for key, pose in found.items()
-    }
-    table = _Table()
-    for key in sorted(found, key=lambda one: not wanted[one]):
-        if len(table.values) >= most - 1 - changing:
-            break
-        own = wanted[key] not in in_use or there.like(bank, _values(found[key])) == wanted[key]
-        others = (number for number in range(1, most + 1) if number not in in_use)
-        free = (number for number in (wanted[key] if own else 0, *others) if number and number not in table.values)
-        number = next((one for one in free if one <= most), 0)
-        if not number:
-            break
-        table.numbers[key], table.values[number] = number, found[key]
-        context.register_names[bank, number] = _label(key)
-    return table
-
-
-def _label(key: Key) -> str:
-    """The datum's name; an element with its index."""
-    names = [node.id for node in walk(key[0]) if isinstance(node, ir.Name)]
-    indices = [str(node.value) for node in walk(key[0]) if isinstance(node, ir.IntLiteral)]
-    return "".join((*names[:1], *indices)) if names else "frame"
-
-
-def _own_number(key: Key) -> int:
-    """The number that its name ends with, or its index in a table of the source; 0: it says none."""
-    found = _DIGITS.search(_label(key))
-    return int(found[1]) if found and key[1] else 0
-
-
-def _is_none(value: ir.Expression) -> bool:
-    return isinstance(value, ir.System) and value.name in ("null_frame", "world")
-
-
-def _key(value: ir.Expression, scope: Scope) -> Key:
-    symbols = [scope.value(node.id) for node in walk(value) if isinstance(node, ir.Name)]
-    return value, tuple(0 if one is None else id(one.declaration) for one in symbols)
-
-
-def _names(value: ir.Expression) -> set[str]:
-    return {node.id.lower() for node in walk(value) if isinstance(node, ir.Name)}
-
-
-def _is_shared(value: ir.Expression, scope: Scope) -> bool:
-    """Is it of the whole program, not of a routine?"""
-    symbols = [scope.value(node.id) for node in walk(value) if isinstance(node, ir.Name)]
-    return all(one is not None and one.routine is None for one in symbols)
-
-
-def _declaration(name: str) -> ir.Variable:
-    """The controller's table. Its values come behind it, where it is not taken for data that the program sets."""
-    bank, most = tables.SELECTED[name]
-    type = ir.ArrayType(ir.PoseType(), (ir.IntLiteral(most),), 1)
-    return ir.Variable(bank, type, storage="persistent", scope="global")
-
-
-def _value(name: str, number: int, pose: rigid.Pose) -> ir.Initialise:
-    return ir.Initialise(ir.Assign(element(name, number), _pose(pose)))
-
-
-def _values(pose: rigid.Pose) -> tuple[float, ...]:
-    place = pose.position
-    return (place.x, place.y, place.z, *pose.rotation.zyx)
-
-
-def _pose(pose: rigid.Pose) -> ir.Aggregate:
-    parts = zip(ir.POSE, _values(pose), strict=True)
-    return ir.Aggregate(tuple((part, ir.RealLiteral(value + 0.0)) for part, value in parts), type_name="pose")
+                    case ir.Assign(target=ir.System(name=name), value=value) if name in tables.SELECTED:
+                        yield name, value, scope
 
 
 # ---- where it is selected
@@ -253,7 +143,7 @@ def _each_routine(program: ir.Program, work: Callable[[ir.Routine], ir.Routine])
 
 def _number(name: str, value: ir.Expression | None) -> ir.Expression | None:
     """The element of the table that is known to be in force."""
-    if value is not None and name == "base" and _is_none(value):
+    if value is not None and name == "base" and is_none(value):
         return element(name, 0)
     match value:
         case ir.Index(base=ir.Name(id=bank)) if bank == tables.SELECTED[name][0]:
