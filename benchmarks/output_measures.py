@@ -66,6 +66,7 @@ ARMS = {
     "val3": "staubli_tx2_60",
     "rpl": "kuka_kr10r1100sixx",
 }
+_VALUES = (".va", ".cnd")  # values that a controller keeps: read with the program, no lines of it
 _LARGEST = 500_000
 _WORST = 5
 _BEGIN, _END = "<!-- measured -->", "<!-- measured until here -->"
@@ -167,15 +168,18 @@ def _limited(shown: str, read: ReadProgram, target: str, robot: str, limit: floa
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 
+def _is_read(target: str, path: str, text: str) -> bool:
+    return lines_of(target, path, text) is not None or path.lower().endswith(_VALUES)
+
+
 def _row(shown: str, read: ReadProgram, target: str, robot: str) -> Row:
     source, diagnostics = read.dialects[0], Diagnostics()
     began = time.perf_counter()
     there = translate_program(read, target, robot, None, diagnostics)
     seconds = time.perf_counter() - began
     sources = [source_from_bytes(file.path, file.data) for file in there.files]
-    again = read_sources(
-        [one for one in sources if lines_of(target, one.path, one.text) is not None], target, Diagnostics()
-    )
+    program = [one for one in sources if _is_read(target, one.path, one.text)]
+    again = read_sources(program, target, Diagnostics())
     back = translate_program(again, source, robot, None, Diagnostics())
     before = _lines(source, [(one.path, one.text) for one in read.sources])
     after = _lines(source, [(file.path, source_from_bytes(file.path, file.data).text) for file in back.files])

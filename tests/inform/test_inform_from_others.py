@@ -26,7 +26,7 @@ def jobs_of(
     translation = translate_program(read, "inform", robot, None, diagnostics)
     again = Diagnostics()
     jobs = [file for file in translation.files if file.path.endswith(".JBI")]
-    back = read_sources([source_from_bytes(file.path, file.data) for file in jobs], "inform", again)
+    back = read_sources([source_from_bytes(file.path, file.data) for file in translation.files], "inform", again)
     assert not again.has_errors, [item.as_text() for item in again]
     if not diagnostics.of(Severity.LOSS):
         result = prove_programs(read.program, back.program, robot, robot, None)
@@ -325,7 +325,7 @@ def test_actions_on_a_path_stand_behind_points_that_the_move_is_cut_at() -> None
     jobs, diagnostics, on = jobs_of("krl", PATH, "kuka_kr6r900sixx")
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
     assert on == {1, 2, 3}
-    words = [line.split()[0] + ("" if "DOUT" not in line else line.split()[1]) for line in jobs["ONE"][1:]]
+    words = [line.split()[0] + ("" if "DOUT" not in line else line.split()[1]) for line in jobs["ONE"]]
     assert words == [
         *("MOVJ", "MOVL", "MOVL", "DOUTOT#(2)", "MOVL", "DOUTOT#(1)"),
         *("MOVC", "MOVC", "MOVC", "DOUTOT#(3)", "MOVC", "MOVC"),
@@ -477,7 +477,7 @@ def test_an_action_some_time_behind_the_start_of_a_computed_move_follows_a_timer
     robot = "kuka_kr6r900sixx"
     translation = translate_program(read, "inform", robot, None, diagnostics)
     assert not diagnostics.of(Severity.LOSS), [item.as_text() for item in diagnostics.of(Severity.LOSS)]
-    sources = [source_from_bytes(file.path, file.data) for file in translation.files if file.path.endswith(".JBI")]
+    sources = [source_from_bytes(file.path, file.data) for file in translation.files]
     lines = sources[0].text.splitlines()
     at = next(n for n, line in enumerate(lines) if line.endswith("NWAIT"))
     assert lines[at + 1 : at + 6] == ["TIMER T=0.10", "DOUT OT#(1) ON", "TIMER T=0.15", "DOUT OT#(3) ON", "CWAIT"]
@@ -504,5 +504,5 @@ CIRC {X 450, Y -75, Z 525, A 0, B 90, C 0}, {X 450, Y -50, Z 550, A 0, B 90, C 0
 END
 """
     jobs, _, _ = jobs_of("krl", text, "kuka_kr6r900sixx")
-    words = [line.split()[0] for line in jobs["ONE"][1:]]
+    words = [line.split()[0] for line in jobs["ONE"]]
     assert words == ["MOVJ", *("MOVC",) * 3, "MOVL", *("MOVC",) * 3]

@@ -28,7 +28,7 @@ def outputs_of(
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
     translation = translate_program(read, "inform", robot, None, diagnostics)
     again = Diagnostics()
-    jobs = [source_from_bytes(file.path, file.data) for file in translation.files if file.path.endswith(".JBI")]
+    jobs = [source_from_bytes(file.path, file.data) for file in translation.files]
     back = read_sources(jobs, "inform", again)
     assert not again.has_errors, [item.as_text() for item in again]
     cell = tmp_path / "cell.toml"

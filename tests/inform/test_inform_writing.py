@@ -35,7 +35,8 @@ def written(
     program = ir.Program((ir.Module("Work", "inform", routines=(routine,)),))
     diagnostics = Diagnostics()
     context = WriteContext(diagnostics, load_robot(robot) if robot else None)
-    (file,) = registry.target("inform").write(program, context)
+    file, *beside = registry.target("inform").write(program, context)
+    assert {one.path for one in beside} <= {"TOOL.CND", "UFRAME.CND"}
     lines = file.data.decode("ascii").split("\r\n")
     at = lines.index("NOP")
     assert file.path == "WORK.JBI" and lines[-2:] == ["END", ""]
@@ -211,12 +212,12 @@ def test_moves_and_points() -> None:
         points=(point("C1", 700.0), point("C2", 800.0)),
     )
     assert lines == [
-        *("SETTOOL TL#(1) P127", "MFRAME UF#(1) P127 P126 P125"),
         *("MOVJ C00001 VJ=50.00 PL=1", "MOVC C00002 V=200.0 CR=20.0"),
         *("MOVC C00000 V=200.0", "MOVC C00003 V=200.0 PL=0"),  # each step has a point of its own
     ]
     assert "C00003=700.000,0.000,500.000,180.0000,0.0000,180.0000" in head
     assert "C00001=700.000,0.000,500.000,180.0000,0.0000,180.0000" in head
+    assert "////FRAME USER 1" in head or "////FRAME BASE" in head
     assert head.index("///RCONF 0,0,0,0,0,0") < head.index("///POSTYPE USER") < head.index("///USER 1") + 2
     assert [item.code.name for item in diagnostics] == ["inform-joint-corner"]
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
-from rpl.passes.fold import Unchanged
+from rpl.passes import rigid
+from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.framenumbers import Table, is_none, names_in, tables_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
@@ -20,6 +21,7 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
+from rpl.passes.values import pose_of
 
 from .. import tables
 
@@ -35,13 +37,15 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
     program = _in_frames(program, scopes, unchanged)
     scopes = ProgramScope(program)
-    made = tables_of(_uses(program, scopes), _BANKS, unchanged, context)
+    uses = [use for use in _uses(program, scopes) if not _is_nothing(use[1], use[2], unchanged)]
+    made = tables_of(uses, _BANKS, unchanged, context)
+    program = _Numbering(made, unchanged).program(program, scopes)
     if not any(table.numbers for table in made.values()):
         return program
-    worker = _Numbering(made, unchanged)
-    program = worker.program(program, scopes)
-    data = tuple(one for table in made.values() for one in (table.declaration(), *table.initials()))
-    home = ir.Module(context.fresh(HOME), program.modules[0].dialect, data, public=True)
+    data: list[ir.Declaration] = []
+    for table in made.values():
+        data += [table.declaration(), *table.initials()]
+    home = ir.Module(context.fresh(HOME), program.modules[0].dialect, tuple(data), public=True)
     return replace(program, modules=(*program.modules, home))
 
 
@@ -56,6 +60,11 @@ def _said(node: object) -> Iterator[tuple[str, ir.Expression]]:
     for kind, one in zip(_BANKS, given, strict=False):
         if one is not None and names_in(one):
             yield kind, one
+
+
+def _is_nothing(value: ir.Expression, scope: Scope, unchanged: Unchanged) -> bool:
+    """Is it the flange, or the base?"""
+    return pose_of(constant(value, scope, unchanged)) == rigid.IDENTITY
 
 
 def _uses(program: ir.Program, scopes: ProgramScope) -> Iterator[tuple[str, ir.Expression, Scope]]:
@@ -108,6 +117,8 @@ class _Numbering:
     def number(self, kind: str, value: ir.Expression) -> ir.Expression | None:
         if names_in(value) & self.unchanged.assigned:
             return None  # the program sets it, if only to this value
+        if _is_nothing(value, self.scope, self.unchanged):
+            return ir.System("null_frame")
         number = self.made[kind].number(value, self.scope)
         return None if not number else self.made[kind].element(number)
 

@@ -15,6 +15,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.taughtvalues import tell_written
+from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -471,9 +472,6 @@ def _turn_nothing(program: ir.Program, scopes: ProgramScope, unchanged: Unchange
                 begins.pop(getattr(one, "name", "").lower(), None)
             for node in walk(*bodies(routine)):
                 if not isinstance(node, ir.Assign):
-                    used = node.arguments if isinstance(node, ir.CallRoutine) else ()
-                    for name in (argument.id.lower() for argument in used if isinstance(argument, ir.Name)):
-                        begins.pop(name, None)
                     continue
                 name = _base(node.target).lower()
                 match node.target:
@@ -481,7 +479,8 @@ def _turn_nothing(program: ir.Program, scopes: ProgramScope, unchanged: Unchange
                         begins.pop(name, None)
                     case ir.Field(base=ir.Name(), name=part) if part.lower() not in _AXES:
                         begins.pop(name, None)
-    return frozenset(name for name, known in begins.items() if known)
+    changed = usage_of(program).otherwise
+    return frozenset(name for name, known in begins.items() if known and name not in changed)
 
 
 def _is_straight(value: ir.Expression, scope: Scope, unchanged: Unchanged) -> bool:
