@@ -25,6 +25,7 @@ from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
+from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typing import type_of
@@ -56,7 +57,7 @@ def arc_distances(program: ir.Program, context: Context) -> ir.Program:
     nodes = walk(*program.modules) if PathRule.STRAIGHT_DISTANCES in context.capabilities.motion.paths else ()
     if not any(isinstance(node, ir.Trigger) for node in nodes):
         return program
-    unchanged = Unchanged(usage_of(program).assigned)
+    unchanged = seen_by_writers(program, context)
     drivers = closure(program, _MOTION)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
@@ -184,6 +185,12 @@ class _Arcs:
         return in_base(move, target, type_of(target, self.editor.scope))
 
 
+def seen_by_writers(program: ir.Program, context: Context) -> Unchanged:
+    """What a writer sees as a constant: what nothing sets, data lists neither, and the controller's own tables."""
+    own = {name.lower() for name in context.capabilities.storage.own}
+    return Unchanged(usage_of(program).assigned - own, unchanged_in(program).initialised)
+
+
 def ends_known(last: ir.Move | None, move: ir.Move, editor: Editor, unchanged: Unchanged) -> bool:
     """Are both ends of a move constants that a writer sees as such?"""
     if last is None or any(isinstance(one.target, ir.Builtin) for one in (last, move)):
@@ -230,4 +237,4 @@ def _is(node: object, name: str | None) -> bool:
     return isinstance(node, ir.Name) and node.id.lower() == name
 
 
-__all__ = ["STRAIGHT", "TIMED", "arc_distances", "ends_known", "written"]
+__all__ = ["STRAIGHT", "TIMED", "arc_distances", "ends_known", "seen_by_writers", "written"]

@@ -15,8 +15,8 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.usage import base_name, usage_of
-from rpl.passes.legalise.records.arcdistances import ends_known, written
+from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.records.arcdistances import ends_known, seen_by_writers, written
 from rpl.passes.legalise.records.pathevents import in_base
 from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
@@ -59,7 +59,7 @@ def path_points(program: ir.Program, context: Context) -> ir.Program:
     if not any(isinstance(node, ir.Trigger) for node in nodes):
         return program
     drivers = closure(program, _MOTION)
-    unchanged = Unchanged(usage_of(program).assigned)
+    unchanged = seen_by_writers(program, context)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Points(context, editor, drivers, unchanged).body)
