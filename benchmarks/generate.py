@@ -196,16 +196,15 @@ def krl_points(lines: int, seed: int = 1) -> str:
 
 
 def rapid_points(lines: int, seed: int = 1) -> str:
-    """A list of RAPID points of so many lines."""
+    """A list of RAPID points of so many lines, with the tool held about one way."""
     rng = random.Random(seed)
     text = ["MODULE points", "  PROC main()"]
     while len(text) < lines - 2:
         x, y, z = rng.uniform(300, 500), rng.uniform(-200, 200), rng.uniform(300, 500)
-        rotation = [rng.gauss(0, 1) for _ in range(4)]
+        rotation = [middle + rng.gauss(0, 0.004) for middle in (0.5, 0.0, 0.866, 0.0)]
         length = sum(part * part for part in rotation) ** 0.5
         written = ",".join(f"{part / length:.7f}" for part in rotation)
-        flags = f"{rng.randint(-1, 1)},{rng.randint(-1, 1)},{rng.randint(-1, 1)},0"
-        target = f"[[{x:.3f},{y:.3f},{z:.3f}],[{written}],[{flags}],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+        target = f"[[{x:.3f},{y:.3f},{z:.3f}],[{written}],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
         text.append(f"    MoveL {target},v200,z1,tool0;")
     return "\n".join([*text, "  ENDPROC", "ENDMODULE", ""])
 

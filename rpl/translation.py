@@ -21,7 +21,7 @@ from rpl.passes.expanded import expanded
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
 from rpl.passes.legality import report, unguarded
-from rpl.passes.stretches import settled, with_stretches
+from rpl.passes.stretches import check_rows, settled, with_stretches
 from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
@@ -195,6 +195,7 @@ def _translated(
         program, begun = name_entry(program, legal.get(first, first) if first else None, capabilities.names, taken)
         program = settled(program, context.stretches, collector.items[before:])
         program = program if target.rows else expanded(program)
+        check_rows(program, collector.items[before:])
         renamed = renamed_twice(renamed_twice(hiding, legal), begun)
     else:
         program = legalise(whole, context)
@@ -224,10 +225,9 @@ def _translated(
     _not_kept(given, earlier, collector)
     used = {**numbers, **context.signal_names}
     report_beside(context.there, given, earlier, apart, used, collector)
-    silent = replace(asked, diagnostics=Diagnostics())
 
     def write(program: ir.Program) -> Sequence[OutputFile]:
-        return target.write(program, silent)
+        return target.write(program, replace(asked, diagnostics=Diagnostics()))
 
     return Translation(tuple(files), written, renamed, losses, dict(numbers), dict(types), names, given, write)
 

@@ -154,7 +154,9 @@ def _sort_items(source: Source, items: tuple[Item, ...], modules: dict[str, _Par
                 parts.declarations.append(ir.Unread("", origin=item.origin))
             case ir.Variable(storage="variable") if _suffix(source) == ".dat":  # a data list without its frame
                 parts.declarations.append(replace(item, storage="persistent"))
-            case ir.Variable() | ir.RecordDeclaration() | ir.EnumDeclaration() | ir.SignalDeclaration():
+            case ir.Variable() | ir.VariableRows() | ir.RecordDeclaration() | ir.EnumDeclaration():
+                parts.declarations.append(item)
+            case ir.SignalDeclaration():
                 parts.declarations.append(item)
             case ir.ExternalDeclaration() | ir.AliasDeclaration() | ir.Initialise() | ir.Unread():
                 parts.declarations.append(item)

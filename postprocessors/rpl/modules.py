@@ -73,6 +73,10 @@ def declaration_lines(declaration: ir.Declaration, indent: str, default: str, la
     if isinstance(declaration, ir.Unread) and not declaration.text:
         yield from standing(declaration.origin, indent, 'UNREAD ""', last)
         return
+    if isinstance(declaration, ir.VariableRows):
+        for one in declaration.variables():
+            yield from declaration_lines(one, indent, default)
+        return
     scope = getattr(declaration, "scope", default)
     prefix = "" if scope == default else _SCOPES[scope]
     yield from headed(prefix + _declaration(declaration), declaration.origin, indent)
@@ -80,6 +84,8 @@ def declaration_lines(declaration: ir.Declaration, indent: str, default: str, la
 
 def _declaration(declaration: ir.Declaration) -> str:
     match declaration:
+        case ir.VariableRows(sample=sample):
+            return _declaration(sample)
         case ir.Variable(name=name, type=type, initial=initial, storage=storage):
             value = "" if initial is None else f" = {value_text(initial)}"
             return f"{_STORAGES[storage]} {name_text(name)}: {type_text(type)}{value}"

@@ -7,5 +7,6 @@ TARGET = Target(
     "FANUC TP",
     longest_line=320,
     encodings=("ascii",),
+    rows=True,
     options={"names": "longest program name: 36 (default) or 8 for old controllers"},
 )

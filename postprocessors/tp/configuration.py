@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from functools import lru_cache
 from typing import Final
 
 FLAGS: Final = ("flip", "down", "back", "t1", "t4", "t6")
@@ -10,7 +10,9 @@ _LETTERS: Final = (("flip", "NF"), ("down", "UD"), ("back", "TB"))
 _TURNS: Final = ("t1", "t4", "t6")
 
 
-def config_text(flags: Mapping[str, int]) -> str:
+@lru_cache(maxsize=1000)
+def config_text(given: tuple[tuple[str, int], ...]) -> str:
     """`N U T, 0, 0, 0`; a flag that is not given is the usual one."""
+    flags = dict(given)
     letters = " ".join(pair[1 if flags.get(name) else 0] for name, pair in _LETTERS)
     return ", ".join((letters, *(str(int(flags.get(name, 0))) for name in _TURNS)))

@@ -146,7 +146,7 @@ def _shown(position: Position) -> Iterator[str]:
         yield " ".join(shown[:3])
         yield " ".join(shown[3:])
     else:
-        yield f"  Group: 1   Config: {config_text(dict(position.flags))}"
+        yield f"  Group: 1   Config: {config_text(position.flags)}"
         x, y, z, a, b, c = position.values
         yield "".join(f"  {name}: {_value(one)} " for name, one in (("X", x), ("Y", y), ("Z", z))).rstrip()
         yield "".join(f"  {name}: {_value(one)} " for name, one in (("W", c), ("P", b), ("R", a))).rstrip()

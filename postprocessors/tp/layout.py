@@ -3,21 +3,44 @@ text."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from rpl.writing.templates import Macros
 
 from .lines import Line
 
 _WORDS = {"CALL ": ("call", "program"), "WAIT ": ("wait", "what")}
 _WORD = len("CALL ")
+_MARK = "\ue000"  # stands for the place of a move; no text has it
 
 
 def laid_out(lines: list[Line], say: Macros) -> list[tuple[str, list[str]]]:
     """Each line as the target's or a plant's macro says it: the first, and those that continue it."""
     found = []
+    forms: dict[tuple[str, ...], list[str]] = {}  # of moves, by their other words, with a mark for their place
     for line in lines:
-        first, *further = _said(line, say)
+        if line.words is not None and not line.further:
+            first, *further = _move(line.words, say, forms)
+        else:
+            first, *further = _said(line, say)
         found.append((first, further))
     return found
+
+
+def _move(words: Mapping[str, str], say: Macros, forms: dict[tuple[str, ...], list[str]]) -> list[str]:
+    """The lines of a move; its macro is asked once for moves that are alike but for their place."""
+    target = words["target"]
+    alike = words["letter"], words["speed"], words["term"], words["options"]
+    form = forms.get(alike)
+    if form is None:
+        said = say.lines("move", **words)
+        form = say.lines("move", **{**words, "target": _MARK})
+        form = forms[alike] = form if _filled(form, target) == said else []
+    return _filled(form, target) if form else say.lines("move", **words)
+
+
+def _filled(form: list[str], target: str) -> list[str]:
+    return [one.replace(_MARK, target) for one in form]
 
 
 def _said(line: Line, say: Macros) -> list[str]:

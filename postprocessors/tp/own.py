@@ -132,3 +132,11 @@ def number_in_force(place: ir.Expression) -> str:
         case ir.Index(base=ir.Name(id="UTOOL" | "UFRAME"), indices=(ir.IntLiteral(value=number),)):
             return str(number)
     return ""
+
+
+def leaves_frames(statement: ir.Statement) -> bool:
+    """Does it surely neither move nor select a tool or frame, whatever is written for it by hand?"""
+    match statement:
+        case ir.Assign(target=ir.Name() | ir.Index() | ir.Field() | ir.Signal()):
+            return True
+    return isinstance(statement, ir.ControlInterrupt | ir.OrderInterrupt | ir.DeclareInterrupt | ir.Pulse | ir.Message)

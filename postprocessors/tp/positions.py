@@ -7,8 +7,9 @@ are written where every move to it has the same ones, and F (whatever is active)
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import repeat
 from typing import NamedTuple
 
 from rpl import ir
@@ -112,6 +113,17 @@ class Points:
             self.labels[number] = label
         return number
 
+    def declare_rows(self, rows: ir.VariableRows, scope: Scope) -> None:
+        """Variables that are points, as `declare` takes each."""
+        numbers = rows.numbers.tolist()
+        found = positions_of_rows(rows)
+        ends = (0, len(numbers) - 1)
+        if found is None or any(found[at] != position_of(_value(rows.variable(at)), scope) for at in ends):
+            found = [position_of(_value(one), scope) for one in rows.variables()]
+        if not self.found.keys().isdisjoint(numbers):
+            raise CannotSayError(f"{rows.name} is a number that another point has")
+        self.found.update(zip(numbers, found, strict=True))
+
     def add(self, position: Position) -> int:
         """The number of a value without a name; equal values share one."""
         known = self.anonymous.get(position)
@@ -129,6 +141,12 @@ class Points:
         self.frames.setdefault(number, set()).add((frame or "F", tool or "F"))
         self.order.append(Reached(number, frame, tool, joint, origin))
 
+    def used_as(self, like: Reached, numbers: list[int], origins: Iterable[Origin]) -> None:
+        """Moves go to these points as that one did."""
+        for number in numbers:
+            self.frames.setdefault(number, set()).add((like.frame or "F", like.tool or "F"))
+        self.order += map(Reached, numbers, repeat(like.frame), repeat(like.tool), repeat(like.joint), origins)
+
     def place(self, number: int) -> str:
         label = self.labels.get(number, "")
         return f"P[{number}{':' + label if label else ''}]"
@@ -137,22 +155,24 @@ class Points:
         for number in sorted(self.found):
             uses = self.frames.get(number, set())
             frame, tool = next(iter(uses)) if len(uses) == 1 else ("F", "F")
-            position, groups = self.found[number], ""
+            position, further = self.found[number], ""
             known = self.recorded.get(number)
             if known is not None:
-                frame, tool, groups = known.frame, known.tool, known.groups
+                frame, tool = known.frame, known.tool
                 position = replace(position, external=position.external[: known.externals])
-            else:
+                further = _further_groups(known.groups.splitlines())
+            elif position.external:
                 beyond = position.external[self.extended : self.axes]
                 position = replace(position, external=position.external[: min(self.extended, self.axes)])
-                groups = "\n".join(_second_group(beyond, frame, tool)) if beyond else ""
+                further = _further_groups(_second_group(beyond, frame, tool)) if beyond else ""
             label = self.labels.get(number, "")
-            head = f"P[{number}{f':{chr(34)}{label}{chr(34)}' if label else ''}]{{"
-            further = [
-                f"   {part.strip()}" if part.strip()[:2] == "GP" else f"\t{part.strip()}"
-                for part in groups.splitlines()
-            ]
-            yield "\n".join((head, "   GP1:", *_lines(position, frame, tool), *further, "};"))
+            name = f"{number}:{chr(34)}{label}{chr(34)}" if label else number
+            yield f"P[{name}]{{\n   GP1:\n{_text(position, frame, tool)}\n{further}}};"
+
+
+def _further_groups(lines: Iterable[str]) -> str:
+    """Groups of axes behind the first."""
+    return "".join(f"   {one.strip()}\n" if one.strip()[:2] == "GP" else f"\t{one.strip()}\n" for one in lines)
 
 
 def point_number(name: str) -> int | None:
@@ -197,6 +217,47 @@ def position_of(value: ir.Expression, scope: Scope) -> Position:
         values = tuple(float(one) for one in given if isinstance(one, int | float))
         return Position("joints", values, (), _further(folded))
     raise CannotSayError("a position with computed or missing components")
+
+
+def positions_of_rows(rows: ir.VariableRows) -> list[Position] | None:
+    """Positions whose components are written out, as `position_of` takes each; None for others."""
+    parts = flat(rows.sample.initial) if rows.sample.initial is not None else {}
+    joints = bool(set(ir.AXES) & set(parts))
+    names = ir.AXES[: 6 if "j6" in parts or len(parts) > 5 else 4] if joints else ir.POSE
+    given = (*names, *FLAGS)
+    cells = {id(parts[name]) for name in given if name in parts} & rows.cells.by_identity.keys()
+    if not set(names) <= set(parts) or len(cells) < len(rows.cells.by_identity):
+        return None
+    columns = {name: _column(parts[name], rows) for name in given if name in parts}
+    for name in () if joints else ir.POSE[3:]:
+        columns[name] = list(map(_turned, columns[name]))
+    values: Iterable[tuple[float, ...]] = zip(*(columns[name] for name in names), strict=True)
+    more = external(parts)
+    if joints:
+        return [Position("joints", one, (), more) for one in values]
+    flagged = [name for name in FLAGS if name in parts]
+    if not flagged:
+        return [Position("pose", one, (), more) for one in values]
+    flags = zip(*(map(int, columns[name]) for name in flagged), strict=True)
+    known: dict[tuple[int, ...], tuple[tuple[str, int], ...]] = {}
+    return [
+        Position("pose", one, known.setdefault(row, tuple(zip(flagged, row, strict=True))), more)
+        for one, row in zip(values, flags, strict=True)
+    ]
+
+
+def _column(part: ir.Expression, rows: ir.VariableRows) -> list[float]:
+    cell = rows.cells.by_identity.get(id(part))
+    if cell is not None:
+        return list(map(float, cell.signed_numbers(rows.moves)))
+    (value,) = numbers({"": part}, ("",))
+    return [value] * len(rows.moves)
+
+
+def _value(variable: ir.Variable) -> ir.Expression:
+    if variable.initial is None:
+        raise CannotSayError(f"{variable.name} has no value")
+    return variable.initial
 
 
 def flat(value: ir.Expression) -> dict[str, ir.Expression]:
@@ -263,25 +324,23 @@ def _turned(degrees: float) -> float:
     return (degrees + 180) % 360 - 180
 
 
-def _lines(position: Position, frame: str, tool: str) -> list[str]:
+def _text(position: Position, frame: str, tool: str) -> str:
+    """The lines of the first group."""
     head = f"\tUF : {frame}, UT : {tool},"
-    if position.kind == "none":
-        head += f"\t\tCONFIG : '{config_text({})}',"
-        rows = [[f"{name} = ********  {unit}" for name in names] for names, unit in (("XYZ", "mm"), ("WPR", "deg"))]
-    elif position.kind == "joints":
-        named = [f"J{number}= {_number(value)} deg" for number, value in enumerate(position.values, 1)]
-        rows = [named[:3], named[3:]]
-    else:
-        head += f"\t\tCONFIG : '{config_text(dict(position.flags))}',"
-        x, y, z, a, b, c = position.values
-        rows = [
-            [f"{name} = {_number(value)}  mm" for name, value in (("X", x), ("Y", y), ("Z", z))],
-            [f"{name} = {_number(value)} deg" for name, value in (("W", c), ("P", b), ("R", a))],
-        ]
     more = [f"E{number}= {_number(value)}  mm" for number, value in enumerate(position.external, 1)]
-    rows += [more[:3], more[3:]]
-    shown = ["\t" + ",\t".join(row) for row in rows if row]
-    return [head, *(line + "," for line in shown[:-1]), shown[-1]]
+    if position.kind == "pose":
+        x, y, z, a, b, c = map(_number, position.values)
+        head = f"{head}\t\tCONFIG : '{config_text(position.flags)}',\n\tX = {x}  mm,\tY = {y}  mm,\tZ = {z}  mm,"
+        rows = [f"\tW = {c} deg,\tP = {b} deg,\tR = {a} deg"]
+    elif position.kind == "none":
+        head = f"{head}\t\tCONFIG : '{config_text(())}',"
+        named = [[f"{name} = ********  {unit}" for name in names] for names, unit in (("XYZ", "mm"), ("WPR", "deg"))]
+        rows = ["\t" + ",\t".join(row) for row in named]
+    else:
+        axes = [f"J{number}= {_number(value)} deg" for number, value in enumerate(position.values, 1)]
+        rows = ["\t" + ",\t".join(row) for row in (axes[:3], axes[3:]) if row]
+    rows += ["\t" + ",\t".join(row) for row in (more[:3], more[3:]) if row]
+    return f"{head}\n" + ",\n".join(rows)
 
 
 def _number(value: float) -> str:

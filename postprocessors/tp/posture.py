@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from itertools import islice
+from typing import TYPE_CHECKING, cast
 
 from rpl import registry
 
@@ -17,8 +19,9 @@ from .lines import Line
 from .positions import Points, Position, Reached
 
 if TYPE_CHECKING:
+    from rpl.emulator.configuration import BatchNotation, Notation
     from rpl.emulator.model import RobotModel
-    from rpl.emulator.rotations import FloatArray
+    from rpl.emulator.rotations import FloatArray, IntArray
 
 
 def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[tuple[Reached, str]]:
@@ -29,31 +32,82 @@ def choose_postures(points: Points, frames: Frames, robot: RobotModel) -> list[t
     make = registry.dialect("tp").notation
     if make is None:
         return []
-    notation, near = make(), robot.home
+    notation, near, order, at = make(), robot.home, points.order, 0
     wrong: dict[int, tuple[Reached, str]] = {}
-    for reached in points.order:
-        number, frame, tool, joint = reached.number, reached.frame, reached.tool, reached.joint
-        position = points.found.get(number)
+    while at < len(order):
+        end = _together(points, at)
+        position = points.found.get(order[at].number)
         if position is None:
-            continue  # reported where it is declared
-        if position.kind == "joints":
-            if len(position.values) == robot.axes:
-                near = _array(position.values)
-            continue
-        flange = _flange(position, frame, tool, frames) if position.kind == "pose" else None
-        if flange is None:
-            continue
-        if position.flags and joint:
-            selection = notation.select(robot, flange, dict(position.flags), near)
-            joints = selection.joints
-            if joints is None:
-                wrong.setdefault(number, (reached, selection.reason))
-        else:
-            joints = robot.nearest(flange, near)
-            if joints is not None and not position.flags:
-                points.found[number] = position.with_flags(notation.encode(robot, joints))
-        near = near if joints is None else joints
+            pass  # reported where it is declared
+        elif position.kind == "joints":
+            near = _array(position.values) if len(position.values) == robot.axes else near
+        elif position.kind == "pose":
+            near = _chosen(order[at:end], points, frames, robot, notation, near, wrong)
+        at = end
     return list(wrong.values())
+
+
+def _together(points: Points, first: int) -> int:
+    """Up to where moves go to poses, each to another one, with one tool and frame."""
+    asked, found, seen = points.order[first], points.found, set[int]()
+    for at, one in enumerate(islice(points.order, first, None), first):
+        position = found.get(one.number)
+        pose = position is not None and position.kind == "pose" and one.number not in seen
+        if not pose or one.tool != asked.tool or one.frame != asked.frame:
+            return max(at, first + 1)
+        seen.add(one.number)
+    return len(points.order)
+
+
+def _chosen(
+    moves: list[Reached],
+    points: Points,
+    frames: Frames,
+    robot: RobotModel,
+    notation: Notation,
+    near: FloatArray,
+    wrong: dict[int, tuple[Reached, str]],
+) -> FloatArray:
+    """Fill in the flags of the points of such moves; the joints behind the last one. Points of joint moves whose flags
+    the arm cannot follow go to `wrong`."""
+    import numpy as np
+
+    from rpl.emulator.configuration import flag_row
+    from rpl.emulator.onways import Nearest, followed
+
+    positions = [points.found[one.number] for one in moves]
+    flanges = _flanges(positions, moves[0].frame, moves[0].tool, frames)
+    if flanges is None:
+        return near
+    nearest, many = (
+        Nearest(robot, flanges),
+        cast("BatchNotation", notation),
+    )
+    exact = np.array([bool(position.flags) and one.joint for position, one in zip(positions, moves, strict=True)])
+    flags = np.concatenate([flag_row(notation.fields, dict(one.flags)) for one in positions]) if exact.any() else exact
+
+    def solve(rows: IntArray, before: FloatArray) -> FloatArray:
+        joints = np.empty((len(rows), robot.axes))
+        asked = exact[rows]
+        if not asked.all():
+            joints[~asked] = nearest(rows[~asked], before[~asked])
+        if asked.any():
+            some = rows[asked]
+            joints[asked] = many.select_all(robot, flanges[some], flags[some], before[asked]).joints
+        return joints
+
+    joints, before = followed(solve, near, len(moves))
+    there = ~np.isnan(joints[:, 0])
+    for at in np.flatnonzero(exact & ~there).tolist():
+        selection = notation.select(robot, flanges[at], dict(positions[at].flags), before[at])
+        wrong.setdefault(moves[at].number, (moves[at], selection.reason))
+    unsaid = there & np.array([not one.flags for one in positions])
+    names, shared = notation.fields, dict[tuple[int, ...], tuple[tuple[str, int], ...]]()
+    found = many.encode_all(robot, joints[unsaid]).tolist() if unsaid.any() else []
+    for at, row in zip(np.flatnonzero(unsaid).tolist(), map(tuple, found), strict=True):
+        told = shared.setdefault(row, tuple(zip(names, row, strict=True)))
+        points.found[moves[at].number] = replace(positions[at], flags=told)
+    return joints[there][-1] if there.any() else near
 
 
 _REGISTER = r"PR\[(\d+)(?::[^\]]*)?\]"
@@ -122,14 +176,23 @@ def _usual(word: str, frames: Frames) -> str:
 
 
 def _flange(position: Position, frame: str, tool: str, frames: Frames) -> FloatArray | None:
+    found = _flanges([position], frame, tool, frames)
+    return None if found is None else found[0]
+
+
+def _flanges(positions: list[Position], frame: str, tool: str, frames: Frames) -> FloatArray | None:
+    """Flange poses (k, 4, 4) at these poses."""
     import numpy as np
+
+    from rpl.emulator.rotations import pose_matrix, zyx_to_matrix
 
     base = frames.pose("UFRAME", frame or frames.only("UFRAME"))
     held = frames.pose("UTOOL", tool or frames.only("UTOOL"))
     if base is None or held is None:
         return None
-    found = _matrix(base) @ _matrix(position.values) @ np.linalg.inv(_matrix(held))
-    return np.asarray(found, dtype=np.float64)
+    values = np.array([one.values for one in positions], dtype=np.float64)
+    poses = pose_matrix(values[:, :3], zyx_to_matrix(values[:, 3:6]))
+    return np.asarray(_matrix(base) @ poses @ np.linalg.inv(_matrix(held)), dtype=np.float64)
 
 
 def _matrix(values: tuple[float, ...]) -> FloatArray:

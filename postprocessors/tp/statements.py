@@ -20,7 +20,8 @@ from .frames import Frames
 from .idioms import Idioms
 from .lines import Line, pulse_length
 from .motion import Motion
-from .own import from_listing, is_own_limit, modal_condition, number_in_force, selects_frame
+from .moverows import write_rows
+from .own import from_listing, is_own_limit, leaves_frames, modal_condition, number_in_force, selects_frame
 from .positions import Points
 from .texts import ascii_text, number, remarks
 
@@ -145,7 +146,7 @@ class Printer(StatementPrinter[Line]):
             self.motion.handed = frozenset()
 
     def guarded_behind(self, statement: ir.Statement) -> None:
-        if not _leaves_frames(statement):
+        if not leaves_frames(statement):
             self.forget()
 
     def forget(self) -> None:
@@ -190,6 +191,8 @@ class Printer(StatementPrinter[Line]):
                 self.motion.stored(lines)
             case ir.Move():
                 self.move(statement)
+            case ir.Rows():
+                write_rows(self, statement)
             case ir.WaitUntil(timeout=limit) if limit is not None:
                 self.limited_alone(statement)
             case ir.Message():
@@ -590,11 +593,3 @@ def _leaves(body: ir.Body) -> bool:
         case (*_, ir.Goto() | ir.Return() | ir.Halt(kind="exit")):
             return True
     return False
-
-
-def _leaves_frames(statement: ir.Statement) -> bool:
-    """Does it surely neither move nor select a tool or frame, whatever is written for it by hand?"""
-    match statement:
-        case ir.Assign(target=ir.Name() | ir.Index() | ir.Field() | ir.Signal()):
-            return True
-    return isinstance(statement, ir.ControlInterrupt | ir.OrderInterrupt | ir.DeclareInterrupt | ir.Pulse | ir.Message)

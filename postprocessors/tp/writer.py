@@ -197,6 +197,12 @@ class _Writer:
                     printer.comments_only(declaration.origin)
                     self.ledger.written(declaration)
                     return
+                case ir.VariableRows():
+                    printer.points.declare_rows(declaration, printer.expressions.scope)
+                    stem, numbers = declaration.stem, declaration.numbers.tolist()
+                    named.update((f"{stem}{number}", printer.points.place(number)) for number in numbers)
+                    self.ledger.written(declaration)
+                    return
                 case ir.Variable(name=name) if _is_bank(name) or name.startswith("for_bound_"):
                     self.ledger.merged(declaration)
                     return

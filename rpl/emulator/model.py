@@ -270,14 +270,21 @@ class RobotModel:
         """
         near = np.asarray(reference, dtype=np.float64)
         found = self.inverse_batch(np.asarray(flange, dtype=np.float64)[None], near)
-        joints = self.nearest_turn(found.joints[0], near)
+        joints = self.nearest_of(found.joints, near[None])[0]
+        return None if np.isnan(joints[0]) else joints
+
+    def nearest_of(self, solutions: FloatArray, reference: FloatArray) -> FloatArray:
+        """Of the solutions (k, b, n) of k poses the one that `nearest` takes from joints (k, n); NaN without any."""
+        near = reference[:, None]
+        joints = self.nearest_turn(solutions, near)
         inside = (joints >= self.limits[:, 0] - LIMIT_SLACK) & (joints <= self.limits[:, 1] + LIMIT_SLACK)
-        travel = np.where(inside.all(axis=1), np.sqrt((((joints - near) / self.speeds) ** 2).sum(axis=1)), np.inf)
-        least = travel.min()
-        if not np.isfinite(least):
-            return None
+        travel = np.where(inside.all(axis=2), np.sqrt((((joints - near) / self.speeds) ** 2).sum(axis=2)), np.inf)
+        least = travel.min(axis=1)
         # Of equals (an arm bent to either side of its way) the first: rounding must not choose.
-        return np.ascontiguousarray(joints[np.argmax(travel <= least * (1.0 + EQUAL_TRAVEL))])
+        first = np.argmax(travel <= least[:, None] * (1.0 + EQUAL_TRAVEL), axis=1)
+        taken: FloatArray = joints[np.arange(len(joints)), first]
+        taken[~np.isfinite(least)] = np.nan
+        return taken
 
     def within_limits(self, joints: ArrayLike) -> list[int]:
         """Indices of the axes outside their limits (empty: all inside)."""

@@ -63,6 +63,7 @@ from rpl.ir.modules import (
     Task,
     Unread,
     Variable,
+    VariableRows,
 )
 from rpl.ir.motion import (
     Blend,
@@ -299,6 +300,7 @@ __all__ = [
     "Unary",
     "Unread",
     "Variable",
+    "VariableRows",
     "VectorType",
     "Vendor",
     "VendorType",

@@ -58,6 +58,10 @@ class Stretch:
         """Where in its columns the numbers of move `at` of the run are."""
         return at - self.first + self._own if self.first <= at < self.end else self._apart[at]
 
+    def rows_of(self, moves: NDArray[np.int64]) -> NDArray[np.int64]:
+        """`row` of each of these moves."""
+        return self.rows.searchsorted(moves)
+
 
 class Choice:
     """What is one of a few expressions in each row. answers: which of the options."""

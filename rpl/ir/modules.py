@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, cast
 
 from rpl.ir.actions import Assign
 from rpl.ir.expressions import Expression, Signal
+from rpl.ir.rows import Cells
+from rpl.ir.runs import Make, maker_of
 from rpl.ir.statements import Body
 from rpl.ir.types import Type
 from rpl.source import NOWHERE, Origin
+
+if TYPE_CHECKING:  # who reads no long program does not wait for it
+    import numpy as np
+    from numpy.typing import NDArray
 
 # scope of a declaration: routine < module < task < global
 SCOPES = ("routine", "module", "task", "global")
@@ -26,6 +34,45 @@ class Variable:
     scope: str = "module"
     label: str = field(default="", compare=False)
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class VariableRows:
+    """Variables of one kind whose names are a stem and a number: the places of Rows that have names. sample: the first
+    of them; cells: of its value; moves: of the run, whose places they are; numbers: of the names."""
+
+    sample: Variable
+    cells: Cells = field(repr=False)
+    stem: str
+    moves: NDArray[np.int64] = field(repr=False)
+    numbers: NDArray[np.int64] = field(repr=False)
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+    @property
+    def name(self) -> str:
+        """Of the first one."""
+        return self.sample.name
+
+    @property
+    def scope(self) -> str:
+        return self.sample.scope
+
+    def variables(self) -> Iterator[Variable]:
+        return (self.variable(which) for which in range(len(self.numbers)))
+
+    def part(self, first: int, end: int) -> VariableRows:
+        """Some of them in a row."""
+        moves, numbers = self.moves[first:end], self.numbers[first:end]
+        named = replace(self.sample, name=f"{self.stem}{numbers[0]}")
+        return VariableRows(named, self.cells, self.stem, moves, numbers, origin=self.origin)
+
+    def variable(self, which: int) -> Variable:
+        """One of them, as if it had been declared alone."""
+        one, stretch, at = self.sample, self.cells.stretch, int(self.moves[which])
+        makes: dict[int, Make[int]] = {key: cell.number for key, cell in self.cells.by_identity.items()}
+        make = maker_of(one.initial, makes, stretch.origin)
+        value = one.initial if make is None else cast(Expression, make(at, stretch.run.columns.origin(at)))
+        return Variable(f"{self.stem}{self.numbers[which]}", one.type, value, one.storage, one.scope, one.label)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +136,7 @@ class Unread:
 
 Declaration = (
     Variable
+    | VariableRows
     | RecordDeclaration
     | EnumDeclaration
     | AliasDeclaration

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from rpl import ir
 from rpl.passes.collector import paused_cycle_collector
 from rpl.passes.rewrite import changed, each, rewrite_parts
@@ -22,7 +24,14 @@ def _module(module: ir.Module) -> ir.Module:
 def _routine(routine: ir.Routine) -> ir.Routine:
     handlers = each(routine.handlers, lambda handler: changed(handler, body=spread(handler.body)))
     body, undo, backward = spread(routine.body), spread(routine.undo), spread(routine.backward)
-    return changed(routine, body=body, handlers=handlers, undo=undo, backward=backward)
+    declarations = routine.declarations
+    if any(isinstance(one, ir.VariableRows) for one in declarations):
+        declarations = tuple(each for one in declarations for each in _declared(one))
+    return changed(routine, declarations=declarations, body=body, handlers=handlers, undo=undo, backward=backward)
+
+
+def _declared(declaration: ir.Declaration) -> Iterable[ir.Declaration]:
+    return declaration.variables() if isinstance(declaration, ir.VariableRows) else (declaration,)
 
 
 def spread(body: ir.Body) -> ir.Body:

@@ -54,6 +54,8 @@ class _Table:
                 case ir.Variable() | ir.SignalDeclaration():
                     if not (visible_outside and declaration.scope == "module"):
                         self.values.setdefault(fold(declaration.name), declaration)
+                case ir.VariableRows(sample=sample):  # who asks for a name asks for that of a sample
+                    self.values.setdefault(fold(sample.name), sample)
                 case ir.RecordDeclaration() | ir.EnumDeclaration() | ir.AliasDeclaration():
                     if visible_outside and declaration.scope == "module":
                         continue

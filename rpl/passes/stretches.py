@@ -87,6 +87,18 @@ def settled(program: ir.Program, stretches: Collection[Stretch], reports: Iterab
     return whole
 
 
+def check_rows(program: ir.Program, reports: Iterable[Diagnostic]) -> None:
+    """Raises LooksInsideError where a pass behind `settled` has made numbers of rows anew, or has reported of them."""
+    rows = [one for one in walk(*program.modules) if isinstance(one, ir.Rows | ir.VariableRows)]
+    for one in rows:
+        if not one.cells.standing_in(one.sample):
+            raise LooksInsideError(one.cells.stretch)
+    places = {_place(one.origin): one.cells.stretch for one in rows if isinstance(one, ir.Rows)}
+    for report in reports if places else ():
+        if (told := places.get(_place(report.origin))) is not None:
+            raise LooksInsideError(told)
+
+
 def _kept(expression: ir.Expression) -> ir.Expression:
     return expression
 

@@ -51,6 +51,7 @@ def inside(node: Node) -> Iterator[Node]:
                 yield from _inside_body(body)
         case (
             ir.Variable()
+            | ir.VariableRows()
             | ir.RecordDeclaration()
             | ir.EnumDeclaration()
             | ir.AliasDeclaration()

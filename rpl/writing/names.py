@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 from rpl import ir
 from rpl.ir.walk import bodies
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 from rpl.writing.namemap import NameMap
@@ -347,7 +347,7 @@ class _Renamer:
         done = rewrite_parts(expression, self.expression)
         match done:
             case ir.Name(id=name):
-                return replace(done, id=self.new(name))
+                return changed(done, id=self.new(name))
             case ir.Call(name=name):
                 arguments = tuple(map(self.argument, done.arguments))
                 return replace(done, name=self.new(name), arguments=arguments)

@@ -47,6 +47,34 @@ def number_text(value: float, decimals: int | None = None, style: NumberStyle = 
         raise InternalError(f"the number {value} cannot be written")
     if value == 0:
         return "0.0" if style.always_point else "0"
+    return _usual_text(value, decimals, style) or _exact_text(value, decimals, style)
+
+
+# Magnitudes whose text Python's own formatting gives: there a double has two digits more than the places asked for.
+_USUAL_LEAST, _USUAL_MOST, _USUAL_PLACES = 1e-3, 1e4, 6
+# How far from the middle between two last places no noise in the two digits behind them reaches it.
+_MIDDLE = 0.01
+
+
+def _usual_text(value: float, decimals: int | None, style: NumberStyle) -> str:
+    """What `_exact_text` gives, in a tenth of the time; empty where only that can tell."""
+    if not _USUAL_LEAST < abs(value) < _USUAL_MOST or style.smallest_plain > _USUAL_LEAST:
+        return ""
+    text = repr(float(value))
+    if decimals is not None and len(text) - text.index(".") - 1 > decimals:
+        scaled = abs(value) * 10.0**decimals
+        if decimals > _USUAL_PLACES or scaled < 1.0 or abs(scaled % 1.0 - 0.5) < _MIDDLE:
+            return ""
+        text = f"{value:.{decimals}f}"
+        if decimals > 0:
+            text = text.rstrip("0")
+    whole, _, places = text.partition(".")
+    if places in ("", "0"):
+        return f"{whole}.0" if style.always_point else whole
+    return text
+
+
+def _exact_text(value: float, decimals: int | None, style: NumberStyle) -> str:
     exact = Decimal(repr(float(value)))
     if decimals is not None:
         rounded = round_decimal(exact, decimals)

@@ -142,13 +142,24 @@ def test_stretches_are_what_comes_of_each_move(write: Write, lists: list[Asked],
 
 
 @pytest.mark.parametrize("robot", [None, ROBOT])
+@pytest.mark.parametrize("target", ["rapid", "tp"])
 @pytest.mark.parametrize(("write", "width"), [(krl, 5.0), (krl_axes, 5.0), (krl_flags, 5.0)])
-def test_long_lists_are_written_by_stretches(write: Write, width: float, robot: str | None) -> None:
-    rows = Asked(3, 200, width, ()).rows()
-    source = write([rows, rows], BETWEEN[write][0])
-    found, count = written(source, "rapid", False, robot)
-    assert count > 300 or (write is krl_flags and robot is None)  # there each joint move is told of
-    assert found == written(source, "rapid", True, robot)[0]
+def test_long_lists_are_written_by_stretches(write: Write, width: float, target: str, robot: str | None) -> None:
+    rows, others = Asked(3, 200, width, ()).rows(), Asked(4, 200, width, ()).rows()
+    source = write([rows, rows if target == "rapid" else others], BETWEEN[write][0])
+    found, count = written(source, target, False, robot)
+    assert count > 300 or write is krl_flags  # there each joint move is told of
+    assert found == written(source, target, True, robot)[0]
+
+
+@pytest.mark.parametrize("robot", [None, ROBOT])
+def test_moves_share_points_with_moves_of_rows(robot: str | None) -> None:
+    """A way that is gone again, from its middle and turned round: its points have one number each."""
+    rows = Asked(3, 60, 30.0, ()).rows()
+    source = krl([rows, rows[30:] + Asked(5, 40, 30.0, ()).rows() + rows[9::-1]], "$OUT[3]=TRUE")
+    found, count = written(source, "tp", False, robot)
+    assert count > 60
+    assert found == written(source, "tp", True, robot)[0]
 
 
 def test_zones_of_some_moves_have_names_of_their_own() -> None:

@@ -24,7 +24,16 @@ class Known(Protocol):
 
 
 # What passes add to their context.
-_FOUND = ("taken", "register_names", "register_types", "signal_groups", "signal_names", "unreached", "flanges")
+_FOUND = (
+    "taken",
+    "stretches",
+    "register_names",
+    "register_types",
+    "signal_groups",
+    "signal_names",
+    "unreached",
+    "flanges",
+)
 
 
 @dataclass(frozen=True, slots=True)

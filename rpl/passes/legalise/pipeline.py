@@ -83,6 +83,8 @@ def _governed(program: ir.Program, context: Context) -> ir.Program:
         match declaration:
             case ir.Variable():
                 return replace(declaration, type=retyped(declaration.type))
+            case ir.VariableRows(sample=sample):
+                return replace(declaration, sample=replace(sample, type=retyped(sample.type)))
             case ir.RecordDeclaration(fields=fields):
                 return replace(declaration, fields=tuple((name, retyped(type)) for name, type in fields))
         return declaration

@@ -204,19 +204,24 @@ class _AtMoves:
         begins = routine.name.lower()
         return edit_bodies(routine, lambda body: self.body(body, begins if body is routine.body else ""))
 
-    def called(self, statement: ir.Statement, begins: _Begin | None) -> None:
+    def known(self, begins: _Begin | ir.Move | None) -> _Begin | None:
+        """With its place, which is asked for few moves only."""
+        return (begins, self.place(begins)) if isinstance(begins, ir.Move) else begins
+
+    def called(self, statement: ir.Statement, begins: _Begin | ir.Move | None) -> None:
         """Notes where the robot is at the calls of a statement; a call within another statement may be anywhere."""
         for node in walk(statement):
             if isinstance(node, ir.CallRoutine | ir.Call):
-                own = node is statement and begins is not None and isinstance(begins[0].blend, ir.BlendStop | None)
-                self.noted.setdefault(node.name.lower(), []).append(begins if own else None)
+                begin = self.known(begins) if node is statement else None
+                own = begin is not None and isinstance(begin[0].blend, ir.BlendStop | None)
+                self.noted.setdefault(node.name.lower(), []).append(begin if own else None)
 
     def body(self, body: ir.Body, routine: str = "", inner: bool = False) -> ir.Body:
         """A body. `inner`: of a statement, whose calls are noted as what they are: anywhere."""
         done: list[ir.Statement] = []
         waiting: list[ir.Trigger] = []
         calls = self.starts.get(routine, [])
-        begins = calls[0] if calls and all(one == calls[0] for one in calls) else None
+        begins: _Begin | ir.Move | None = calls[0] if calls and all(one == calls[0] for one in calls) else None
         last: int | None = None  # the place in `done` of the move before, while nothing stands between that takes time
         for statement in body:
             if not inner:
@@ -238,8 +243,8 @@ class _AtMoves:
                         moved = [replace(one, reference="end") for one in early]
                         done[last] = replace(before, triggers=(*before.triggers, *moved)) if moved else before
                         own = [one for one in own if one not in early]
-                    own = [self.from_end(one, begins, statement) for one in own]
-                    last, waiting, begins = len(done), [], (statement, self.place(statement))
+                    own = [self.from_end(one, self.known(begins), statement) for one in own]
+                    last, waiting, begins = len(done), [], statement
                     done.append(replace(statement, triggers=(*own, *statement.triggers)) if own else statement)
                     continue
                 case ir.Assign() | ir.Nothing() | ir.LookAhead():

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from rpl import ir
+from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Bank
@@ -36,6 +36,7 @@ from rpl.passes.legalise.storage.banks import (
 )
 from rpl.passes.legalise.storage.points import Points, poses_of_moves
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.stretches import settled
 from rpl.passes.typewords import word_type
 from rpl.source import NOWHERE
 
@@ -74,6 +75,9 @@ class Facts:
 @legalising(unless=lambda context: not context.capabilities.storage.banks)
 def number_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with banks."""
+    if context.stretches and registry.target(context.target).rows:
+        program = settled(program, context.stretches, context.diagnostics.items[context.before :])
+        context.stretches = ()
     worker = _Numbered(program, context)
     done = worker.program()
     # Where the number of an element is computed first, its wait has become a loop.
@@ -222,7 +226,7 @@ class _Numbered(Rewriter):
             done = replace(done, modules=(*modules, home))
         self.points.begin(ir.Routine(INITIALISE))
         start = [self.with_points(one) for one in self.start]
-        return assigned_at_start(done, self.context, start, tuple(self.points.made))
+        return assigned_at_start(done, self.context, start, tuple(self.points.declarations()))
 
     def with_points(self, assign: ir.Statement) -> ir.Statement:
         """Positions that data starts with are points of the routine that sets them."""
@@ -276,13 +280,15 @@ class _Numbered(Rewriter):
         return replace(
             done,
             body=(*self.first, *done.body) if self.first else done.body,
-            declarations=(*done.declarations, *self.points.made),
+            declarations=(*done.declarations, *self.points.declarations()),
         )
 
     # ---- uses
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         match statement:
+            case ir.Rows():
+                return self.rows(statement)
             case ir.Assign(target=ir.Name(id=name), value=value):
                 place = self.array(name)
                 if place is not None:
@@ -290,6 +296,15 @@ class _Numbered(Rewriter):
                     if done is not None:
                         return done
         return super().statement(statement)
+
+    def rows(self, rows: ir.Rows) -> list[ir.Statement]:
+        """Moves of one shape with their points; move by move where they differ in more."""
+        stripped = replace(rows.sample, target=ir.Name(""))
+        if self.context.capabilities.storage.points is not None and super().statement(stripped) == [stripped]:
+            done = self.points.of_rows(rows, self.type_of(rows.sample.target))
+            if done is not None:
+                return [done]
+        return [one for move in rows.moves() for one in self.placed(move)]
 
     def array(self, name: str) -> Place | None:
         symbol = self.scope.value(name)

@@ -13,11 +13,13 @@ from itertools import count
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.rows import Cells
 from rpl.ir.walk import walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant
 from rpl.passes.legalise.storage.banks import own_number
+from rpl.passes.legalise.storage.rowpoints import Keys, of_one_shape, shown, shown_in_rows
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import type_word
 
@@ -49,22 +51,6 @@ def is_whole(value: ir.Expression | None) -> bool:
     if None in names:
         return all(is_whole(one) or not isinstance(one, ir.Aggregate) for _, one in value.entries)
     return "trans" in names or "robax" in names or names >= _POSE or "j1" in names
-
-
-def shown(value: ir.Expression) -> str:
-    """A written position in few signs: `x 450, y -350, ...`."""
-    match value:
-        case ir.Aggregate(entries=entries):
-            return ", ".join(f"{name} {shown(one)}" if name else shown(one) for name, one in entries)
-        case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
-            return repr(number).removesuffix(".0")
-        case ir.Unary(op="-", operand=operand):
-            return f"-{shown(operand)}"
-        case ir.TextLiteral(value=text):
-            return text
-        case ir.BoolLiteral(value=truth):
-            return str(truth).lower()
-    return type(value).__name__
 
 
 def poses_of_moves(program: ir.Program, context: Context) -> frozenset[str]:
@@ -105,8 +91,11 @@ class Points:
     context: Context
     unchanged: Unchanged
     of_moves: frozenset[str] = frozenset()  # poses as `poses_of_moves` finds them
-    made: list[ir.Variable] = field(default_factory=list)
+    made: list[ir.Variable | ir.VariableRows] = field(default_factory=list)
     found: dict[object, ir.Name] = field(default_factory=dict)
+    keys: Keys = field(default_factory=Keys)
+    in_rows: dict[object, tuple[int, int]] = field(default_factory=dict)  # which of `made`, which of its rows
+    alone: set[tuple[int, int]] = field(default_factory=set)  # of those, what is declared by itself
     used: set[int] = field(default_factory=set)
     lowest: int = 0  # all numbers below are taken in the routine
     routine: str = ""
@@ -116,6 +105,7 @@ class Points:
 
     def begin(self, routine: ir.Routine) -> None:
         self.made, self.found, self.used, self.lowest, self.routine = [], {}, set(), 0, routine.name.lower()
+        self.in_rows, self.alone = {}, set()
         home = self.bank()
         self.earlier = {name.lower(): at for (bank, at), name in self.context.registers.items() if bank == home}
         self.kept = frozenset(self.earlier.values())
@@ -185,7 +175,62 @@ class Points:
         name."""
         if not isinstance(type, _POSITIONS) or not is_point(value):
             return None
-        return self.point(value, type, value, "", value)
+        key = self.keys.key(value)
+        if key in self.in_rows:
+            self.alone.add(self.in_rows[key])
+        return self.point(key, type, value, "", value)
+
+    def of_rows(self, rows: ir.Rows, type: ir.Type | None) -> ir.Rows | None:
+        """The moves with the points for the positions that they go to; None where that has to be seen move by move."""
+        import numpy as np
+
+        bank, target = self.context.capabilities.storage.points, rows.sample.target
+        assert bank is not None  # asked only for targets that have points
+        own = self.own_numbers()
+        if not isinstance(type, _POSITIONS) or not isinstance(target, ir.Aggregate) or not is_point(target):
+            return None
+        if self.earlier or own or not of_one_shape(rows):
+            return None
+        moves, at = np.arange(rows.cells.stretch.first, rows.cells.stretch.end), len(self.made)
+        numbers, first, new = list[int](), max(bank.first, self.lowest), list[int]()
+        free = (number for number in count(first) if number not in self.used)
+        for which, key in enumerate(self.keys.keys(target, rows.cells, moves)):
+            name = self.found.get(key)
+            if name is None:
+                self.lowest = next(free)
+                name = self.found[key] = ir.Name(f"{bank.name}{self.lowest}")
+                self.in_rows[key] = at, len(new)
+                new.append(which)
+                numbers.append(self.lowest)
+            else:
+                numbers.append(int(name.id.removeprefix(bank.name)))
+        if not new:
+            return None
+        self.used.update(numbers)
+        given, these = np.array(numbers), np.array(new)
+        cells = Cells(rows.cells.stretch, target, rows.cells.signed)
+        home, word, fresh = self.bank(), type_word(type) or "", given[these].tolist()
+        for number, known in zip(fresh, shown_in_rows(target, cells, moves[these]), strict=True):
+            self.context.register_names[home, number] = known
+            self.context.register_types[home, number] = word
+        sample = ir.Variable(f"{bank.name}{given[these[0]]}", type, target, storage="constant", scope="routine")
+        self.made.append(ir.VariableRows(sample, cells, bank.name, moves[these], given[these]))
+        return rows.naming(bank.name, given, int(these[0]))
+
+    def declarations(self) -> list[ir.Declaration]:
+        """The points of the routine; those of rows that a move by itself goes to, too, by themselves."""
+        done: list[ir.Declaration] = []
+        for at, one in enumerate(self.made):
+            if not isinstance(one, ir.VariableRows):
+                done.append(one)
+                continue
+            first = 0
+            for which in sorted(row for made, row in self.alone if made == at):
+                done += [*([one.part(first, which)] if which > first else []), one.variable(which)]
+                first = which + 1
+            if first < len(one.numbers):
+                done.append(one.part(first, len(one.numbers)))
+        return done
 
     def point(self, key: object, type: ir.Type, value: ir.Expression, label: str, used: ir.Expression) -> ir.Name:
         bank = self.context.capabilities.storage.points

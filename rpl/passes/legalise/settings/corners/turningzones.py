@@ -58,8 +58,8 @@ def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
             size = float(f"{size:.6g}")
             context.diagnostics.report(REDUCED, zone.move.origin, path=zone.path, size=size)
             return replace(zone.blend, distance=ir.RealLiteral(size))
-        turn = max((leg.turn for leg in beside if leg.way > _NO_WAY), default=0.0)
-        if size > zone.path + 1e-6 and turn > _TOLD_TURN and not told:
+        larger = size > zone.path + 1e-6 and not told
+        if larger and any(leg.turn > _TOLD_TURN for leg in beside if leg.way > _NO_WAY):
             told.add("extended")
             context.diagnostics.report(EXTENDED, zone.move.origin, extended=float(f"{size:.6g}"), path=zone.path)
         return zone.blend
