@@ -258,6 +258,15 @@ RULES = (
         undefined(r"(?<![A-Z\"])P\[(\d+)[ \t]*\](?![ \t]*\{)", r"^[ \t]*P\[(\d+)[ \t]*\][ \t]*\{"),
     ),
     Rule(
+        "tp-position-number",
+        "the number of a position is at most 32766",
+        "not loaded: numbers have 16 bits",
+        "split the program and call its parts",
+        "authors of another postprocessor (Institut Maupertuis, issue 43 of fanuc_post_processor)",
+        Trust.M,
+        beyond(r"^[ \t]*P\[(\d+)[ \t]*\][ \t]*\{", 1, 32766),
+    ),
+    Rule(
         "tp-label",
         "each label that is jumped to stands in the program",
         "the jump stops the program",

@@ -66,7 +66,7 @@ PR: Final = Bank("PR", 1, _LAST["PR"], most=2000)
 SR: Final = Bank("SR", 1, _LAST["SR"], most=300)  # M: the largest number of SR
 F: Final = Bank("F", 1, 1024, "flag")
 TIMER: Final = Bank("TIMER", 1, 20, "timer")
-POINTS: Final = Bank("P", 1, 1500)  # M: largest number of a taught position
+POINTS: Final = Bank("P", 1, 32766)  # M: the largest that another postprocessor's authors found, 16 bits
 ARGUMENTS: Final = Bank("AR", 1, 10)
 BANKS: Final[Mapping[str, Bank]] = {bank.name: bank for bank in (R, PR, SR, F, TIMER, POINTS, ARGUMENTS)}
 LAST_LABEL: Final = 32766

@@ -93,9 +93,11 @@ END
 """
 UR = "def a():\n  global n = 1\n  def b():\n    n = 2\n  end\n  b()\nend\n"
 VPLUS = ".PROGRAM a()\n        IF x == 1 GOTO 10\n        y = 1\n 10     z = 1\n.END\n"
-NAMES = {"rapid": "M.mod", "krl": "A.src", "inform": "A.JBI", "urscript": "a.script", "vplus": "a.v2"}
+NAMES = {"tp": "A.LS", "rapid": "M.mod", "krl": "A.src", "inform": "A.JBI", "urscript": "a.script", "vplus": "a.v2"}
 LONG = "a" * 40
+PLACED = "/PROG  A\n/MN\n   1:J P[32766] 9% FINE ;\n/POS\nP[32766]{\n   GP1:\n};\n/END\n"
 CASES = [
+    ("tp", PLACED, "/END", "P[32767]{\n   GP1:\n};\n/END", [("tp-position-number", 8)]),
     ("rapid", RAPID, "PROC main", "PROC M", [("rapid-named-twice", 3)]),
     ("rapid", RAPID, "PROC main()", "PROC main()\n    VAR num a;", []),
     ("rapid", RAPID, "{1,2}", "{1}{2}", [("rapid-index", 4)]),
@@ -150,7 +152,7 @@ CASES = [
 
 @pytest.mark.parametrize("language", NAMES)
 def test_what_is_right_is_taken(language: str) -> None:
-    good = {"rapid": RAPID, "krl": KRL, "inform": INFORM, "urscript": UR, "vplus": VPLUS}
+    good = {"tp": PLACED, "rapid": RAPID, "krl": KRL, "inform": INFORM, "urscript": UR, "vplus": VPLUS}
     assert broken(language, [(NAMES[language], good[language])]) == []
 
 
