@@ -1,7 +1,8 @@
 """Places that are counted from a taught point, as a point and a shift: what programmers write as SFTON .. SFTOF.
 
 A variable that always holds a taught point moved along the axes of its frame becomes the way that it is moved by; the
-moves then go to the point, shifted. What is a constant way from a point is a point of its own, as each step has one.
+moves then go to the point, shifted; so do moves to a constant way from a point. What is shifted by both is a point of
+its own, a constant way from the taught one, that is told.
 """
 
 from __future__ import annotations
@@ -332,6 +333,11 @@ class _Routine:
         if place is None:
             return self.unfollowed(expression)
         point = place.point
+        if place.shift is None and not self.about.is_place(point):
+            root, way = _root(point), _way_of(point)
+            if not self.about.is_place(root):
+                return self.unfollowed(expression)
+            return ir.Builtin("displaced", (root, _pose(way)), origin=expression.origin)
         if not self.about.is_place(point):
             value = self.about.value(point)
             made = None if value is None else _written(value)
@@ -414,6 +420,14 @@ def _way_of(point: ir.Expression) -> list[float]:
     if isinstance(point, ir.Builtin) and point.function == "offset":
         return [one.value for one in point.arguments[1:] if isinstance(one, ir.RealLiteral)]
     return [0.0, 0.0, 0.0]
+
+
+def _pose(way: Iterable[float]) -> ir.Aggregate:
+    """A way as a pose."""
+    numbers = (*way, 0.0, 0.0, 0.0)
+    return ir.Aggregate(
+        tuple((name, ir.RealLiteral(one)) for name, one in zip(ir.POSE, numbers, strict=True)), type_name="pose"
+    )
 
 
 def _terms(value: ir.Expression, sign: int = 1) -> Iterator[tuple[int, ir.Expression]]:
