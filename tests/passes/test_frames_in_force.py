@@ -84,4 +84,4 @@ def test_a_modal_target_sets_again_what_an_interrupt_may_have_set() -> None:
     read = read_sources([source_from_text("main.rpl", INTERRUPTED)], "rpl", Diagnostics())
     written = translate_program(read, "krl", "kuka_kr6r900sixx", None, Diagnostics())
     main = next(one for one in written.files if one.path.endswith("main.src")).data.decode()
-    assert main.count("$TOOL=t1") == 2
+    assert main.count("$TOOL=TOOL_DATA[1]") == 2

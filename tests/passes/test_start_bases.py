@@ -58,7 +58,7 @@ def test_the_base_is_said_once_before_the_first_move(path: str, text: str, diale
 
 def test_a_base_that_the_moves_name_is_theirs() -> None:
     found = lines("A.JBI", JOB % "USER\n///USER 1", "inform", "motoman_gp8")
-    assert [line for line in found if line.startswith("$BASE")] == ["$BASE=UF1"]
+    assert [line for line in found if line.startswith("$BASE")] == ["$BASE=BASE_DATA[1]"]
 
 
 def test_ways_in_joints_need_none() -> None:
