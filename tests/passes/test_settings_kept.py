@@ -54,4 +54,4 @@ def test_a_tool_is_said_again_where_it_must(between: str, times: int) -> None:
     written = translate_program(read, "krl", "abb_irb1200_5_90", None, diagnostics)
     text = next(file.data.decode() for file in written.files if file.path == "M.src")
     main = text[text.index("DEF M(") :].partition("\r\nEND\r\n")[0]
-    assert main.count("$TOOL=tGrip") == times, main
+    assert main.count("$TOOL=tGrip") + main.count("$TOOL=TOOL_DATA[1]") == times, main
