@@ -44,4 +44,4 @@ def test_the_tool_behind_a_call(called: str, again: bool) -> None:
     read = read_sources(sources, "inform", Diagnostics())
     files = translate_program(read, "krl", "motoman_gp7", None, Diagnostics()).files
     (text,) = [file.data.decode("utf-8") for file in files if file.path.endswith("MAIN.src")]
-    assert text.count("$TOOL=TL1") + text.count("$TOOL=TOOL_DATA[1]") == (2 if again else 1)
+    assert text.count("$TOOL=TL1") == (2 if again else 1)

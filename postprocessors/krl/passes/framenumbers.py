@@ -8,7 +8,6 @@ and 32 of 63 of $BASE are `..._DATA[n]`, two of 101 a value.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -18,6 +17,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.framenumbers import Key, is_shared, key_of, label_of, names_in, own_number
 from rpl.passes.legalise.facts.mentioned import mentioned
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -28,11 +28,7 @@ from rpl.passes.values import pose_of
 
 from .. import tables
 
-_DIGITS = re.compile(r"(\d+)\D*\Z")
 _DECIMALS = 6  # a REAL of the controller has seven digits
-
-# Data as a program says it, and which declarations its names mean there.
-Key = tuple[ir.Expression, tuple[int, ...]]
 
 
 @legalising(sees=("system tool", "system base"))
@@ -51,7 +47,7 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            work = _Numbers(numbers, scopes.routine(module, routine), unchanged.assigned)
+            work = _Numbers(numbers, scopes.routine(module, routine))
             routines.append(edit_bodies(routine, work.body))
         modules.append(replace(module, routines=tuple(routines)))
     done = _without_noted(replace(program, modules=tuple(modules)))
@@ -65,8 +61,8 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
 class _Numbers:
     """The statements of one routine with elements of the tables in place of the data."""
 
-    def __init__(self, numbers: Mapping[Key, ir.Index], scope: Scope, assigned: set[str]) -> None:
-        self.numbers, self.scope, self.assigned = numbers, scope, assigned
+    def __init__(self, numbers: Mapping[Key, ir.Index], scope: Scope) -> None:
+        self.numbers, self.scope = numbers, scope
 
     def body(self, body: ir.Body) -> ir.Body:
         return tuple(map(self.statement, body))
@@ -74,15 +70,15 @@ class _Numbers:
     def statement(self, statement: ir.Statement) -> ir.Statement:
         match statement:
             case ir.Assign(target=ir.System(name=name), value=value) if name in tables.SELECTED:
-                found = self.numbers.get(_key(value, self.scope))
+                found = self.numbers.get(key_of(value, self.scope))
                 if found is not None:
                     return replace(statement, value=found)
         return rewrite_parts(statement, self.change, self.body)
 
     def change(self, expression: ir.Expression) -> ir.Expression:
         """Named data only: a literal elsewhere is another place that happens to be the same."""
-        if isinstance(expression, ir.Field | ir.Name | ir.Index) and not (_names(expression) & self.assigned):
-            found = self.numbers.get(_key(expression, self.scope))
+        if isinstance(expression, ir.Field | ir.Name | ir.Index):
+            found = self.numbers.get(key_of(expression, self.scope))
             if found is not None:
                 return found
         return rewrite_parts(expression, self.change)
@@ -113,10 +109,12 @@ def _found(program: ir.Program, scopes: ProgramScope, unchanged: Unchanged) -> d
             scope = scopes.routine(module, routine)
             for node in walk(*bodies(routine)):
                 match node:
-                    case ir.Assign(target=ir.System(name=name), value=value) if name in found and _is_data(value):
-                        pose = pose_of(constant(value, scope, unchanged)) if _is_shared(value, scope) else None
+                    case ir.Assign(target=ir.System(name=name), value=value) if name in found and _is_data(
+                        value, unchanged.assigned
+                    ):
+                        pose = pose_of(constant(value, scope, unchanged)) if is_shared(value, scope) else None
                         if pose is not None:
-                            found[name].setdefault(_key(value, scope), pose)
+                            found[name].setdefault(key_of(value, scope), pose)
     return found
 
 
@@ -124,7 +122,7 @@ def _numbered(name: str, found: Mapping[Key, rigid.Pose], context: Context) -> _
     bank = tables.SELECTED[name]
     labels = _labels(name, found)
     earlier = {label: number for (kind, number), label in context.registers.items() if kind == bank}
-    wanted = {key: earlier.get(labels[key]) or _own_number(key) for key in found}
+    wanted = {key: earlier.get(labels[key]) or own_number(key) for key in found}
     table = _Table()
     for key in sorted(found, key=lambda one: not wanted[one]):
         free = (one for one in (wanted[key], *range(1, tables.MOST_FRAMES + 1)) if one and one not in table.values)
@@ -140,7 +138,7 @@ def _labels(name: str, found: Mapping[Key, rigid.Pose]) -> dict[Key, str]:
     """What each is called: as its data; an element with its index; a value by its kind."""
     labels: dict[Key, str] = {}
     for key in found:
-        stem = _label(key) or name
+        stem = label_of(key) or name
         others = {one.lower() for one in labels.values()}
         labels[key] = next(
             one for at in range(1, len(found) + 2) if (one := f"{stem} {at}" if at > 1 else stem).lower() not in others
@@ -148,36 +146,13 @@ def _labels(name: str, found: Mapping[Key, rigid.Pose]) -> dict[Key, str]:
     return labels
 
 
-def _label(key: Key) -> str:
-    names = [node.id for node in walk(key[0]) if isinstance(node, ir.Name)]
-    indices = [str(node.value) for node in walk(key[0]) if isinstance(node, ir.IntLiteral)]
-    return "".join((*names[:1], *indices)) if names else ""
-
-
-def _own_number(key: Key) -> int:
-    """The number that its name ends with, or its index in a table of the source; 0: it says none."""
-    found = _DIGITS.search(_label(key))
-    return int(found[1]) if found and key[1] else 0
-
-
-def _is_data(value: ir.Expression) -> bool:
-    """Is it a datum or a literal, no offset that the robot's own base has anyway, and nothing that is worked out?"""
-    return isinstance(value, ir.Name | ir.Index | ir.Field | ir.Aggregate | ir.Binary)
-
-
-def _key(value: ir.Expression, scope: Scope) -> Key:
-    symbols = [scope.value(node.id) for node in walk(value) if isinstance(node, ir.Name)]
-    return value, tuple(0 if one is None else id(one.declaration) for one in symbols)
-
-
-def _names(value: ir.Expression) -> set[str]:
-    return {node.id.lower() for node in walk(value) if isinstance(node, ir.Name)}
-
-
-def _is_shared(value: ir.Expression, scope: Scope) -> bool:
-    """Is it of the whole program, not of a routine?"""
-    symbols = [scope.value(node.id) for node in walk(value) if isinstance(node, ir.Name)]
-    return all(one is not None and one.routine is None for one in symbols)
+def _is_data(value: ir.Expression, assigned: set[str]) -> bool:
+    """Is it a literal, or a datum that the program never sets, not even to what it has anyway: what is worked out of
+    other data follows when those are taught anew."""
+    names = names_in(value)
+    if isinstance(value, ir.Name | ir.Index | ir.Field):
+        return not names & assigned
+    return isinstance(value, ir.Aggregate | ir.Binary) and not names
 
 
 def _selected(node: object) -> bool:
@@ -210,7 +185,7 @@ def _lines(made: Mapping[str, _Table], remarks: Mapping[int, ir.Unread]) -> list
 def _called(key: Key) -> str:
     """The name that the pendant shows: of the datum; elements of a table of the source have none."""
     numbered = any(isinstance(node, ir.Index) for node in walk(key[0]))
-    return "" if numbered else _label(key)[: tables.LONGEST_FRAME_NAME]
+    return "" if numbered else label_of(key)[: tables.LONGEST_FRAME_NAME]
 
 
 def _pose(pose: rigid.Pose) -> ir.Aggregate:
@@ -238,7 +213,7 @@ def _without_unread(program: ir.Program, gone: set[int]) -> tuple[ir.Program, di
                     kept.append(ir.Unread("", origin=one.origin))
                 elif one.origin.comments:
                     remarks[id(one)] = ir.Unread("", origin=one.origin)
-            elif not (isinstance(one, ir.Initialise) and _names(_base(one.assign.target)) & names):
+            elif not (isinstance(one, ir.Initialise) and names_in(_base(one.assign.target)) & names):
                 kept.append(one)
         if kept or module.routines or not module.declarations:
             modules.append(replace(module, declarations=tuple(kept)))

@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.scope import Scope
 from rpl.passes.values import pose_of
 
+_NO_NAME = "frame"  # how a literal is called
 _DIGITS = re.compile(r"(\d+)\D*\Z")
 
 # Data as a program says it, and which declarations its names mean there.
@@ -62,7 +63,7 @@ def tables_of(
     for name, value, scope in uses:
         if is_none(value):
             continue
-        pose = pose_of(constant(value, scope, unchanged)) if _is_shared(value, scope) else None
+        pose = pose_of(constant(value, scope, unchanged)) if is_shared(value, scope) else None
         if pose == rigid.IDENTITY and name == "base" and names_in(value) & unchanged.assigned:
             world.add(key_of(value, scope))
         elif pose is None:
@@ -82,7 +83,7 @@ def _numbered(bank: tuple[str, int], found: Mapping[Key, rigid.Pose], changing: 
     mine = {number for kind, number in context.registers if kind == name}
     in_use = there.of(name) - mine
     wanted = {
-        key: earlier.get(_label(key)) or there.like(name, _values(pose)) or _own_number(key)
+        key: earlier.get(label_of(key) or _NO_NAME) or there.like(name, _values(pose)) or own_number(key)
         for key, pose in found.items()
     }
     table = Table(name, most)
@@ -96,20 +97,20 @@ def _numbered(bank: tuple[str, int], found: Mapping[Key, rigid.Pose], changing: 
         if not number:
             break
         table.numbers[key], table.values[number] = number, found[key]
-        context.register_names[name, number] = _label(key)
+        context.register_names[name, number] = label_of(key) or _NO_NAME
     return table
 
 
-def _label(key: Key) -> str:
-    """The datum's name; an element with its index."""
+def label_of(key: Key) -> str:
+    """The datum's name; an element with its index; empty: a literal."""
     names = [node.id for node in walk(key[0]) if isinstance(node, ir.Name)]
     indices = [str(node.value) for node in walk(key[0]) if isinstance(node, ir.IntLiteral)]
-    return "".join((*names[:1], *indices)) if names else "frame"
+    return "".join((*names[:1], *indices)) if names else ""
 
 
-def _own_number(key: Key) -> int:
+def own_number(key: Key) -> int:
     """The number that its name ends with, or its index in a table of the source; 0: it says none."""
-    found = _DIGITS.search(_label(key))
+    found = _DIGITS.search(label_of(key))
     return int(found[1]) if found and key[1] else 0
 
 
@@ -126,7 +127,7 @@ def names_in(value: ir.Expression) -> set[str]:
     return {node.id.lower() for node in walk(value) if isinstance(node, ir.Name)}
 
 
-def _is_shared(value: ir.Expression, scope: Scope) -> bool:
+def is_shared(value: ir.Expression, scope: Scope) -> bool:
     """Is it of the whole program, not of a routine?"""
     symbols = [scope.value(node.id) for node in walk(value) if isinstance(node, ir.Name)]
     return all(one is not None and one.routine is None for one in symbols)
