@@ -31,7 +31,7 @@ from rpl.cell import Cell
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.errors import RplError
-from rpl.project import read_program, read_sources
+from rpl.project import ReadProgram, read_program, read_sources
 from rpl.proof.paths import turn_deg
 from rpl.proof.prove import load_cell, prove_recorded
 from rpl.proof.record import Record
@@ -107,13 +107,13 @@ class Sample:
 
     name: str
     language: str
-    program: object
+    program: ReadProgram
     robot: RobotModel
     cell: Cell | None
     entry: str | None
 
     def side(self) -> Side:
-        program = self.program.program  # type: ignore[attr-defined]
+        program = self.program.program
         return Side(program, self.robot, self.cell, entry_name(program, self.entry))
 
 
@@ -131,7 +131,7 @@ def translated(sample: Sample, target: str) -> Side:
     cell, read = sample.cell, sample.program
     given, around, levels = (cell.variables, cell.mechanisms, cell.analog) if cell is not None else (None, (), ())
     made = translate_program(
-        read,  # type: ignore[arg-type]
+        read,
         target,
         sample.robot.name,
         None,
@@ -142,7 +142,7 @@ def translated(sample: Sample, target: str) -> Side:
     )
     back = read_sources([source_from_bytes(file.path, file.data) for file in made.files], target, Diagnostics())
     named = with_signal_names(back.program, made.program)
-    source = read.program  # type: ignore[attr-defined]
+    source = read.program
     entry = entry_name(source, sample.entry)
     theirs = in_words_of(cell, source, named) if cell is not None else None
     return Side(named, sample.robot, theirs, made.renamed.get(entry, entry) if entry else None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import cast
 
 from mutation_sites import Path, Site, sites
 
@@ -160,7 +161,8 @@ def _truth_and_texts(site: Site, names: Names) -> Iterator[tuple[str, object]]:
 
 def _conditions(site: Site, names: Names) -> Iterator[tuple[str, object]]:
     if site.condition:
-        yield "condition negated", ir.Unary("not", site.value, origin=site.origin)  # type: ignore[arg-type]
+        condition = cast("ir.Expression", site.value)  # a condition is nothing else
+        yield "condition negated", ir.Unary("not", condition, origin=site.origin)
     node = site.value
     if not isinstance(node, ir.Binary):
         return

@@ -148,8 +148,8 @@ def sites(program: ir.Program) -> Iterator[Site]:
         if not site.is_body:
             stack.extend(reversed(list(_below(site))))
         else:
-            parts = enumerate(site.value)  # type: ignore[arg-type]  # a body is a tuple
-            stack.extend(reversed([_entered(site, (number,), part, "") for number, part in parts]))
+            assert isinstance(site.value, tuple)
+            stack.extend(reversed([_entered(site, (at,), part, "") for at, part in enumerate(site.value)]))
 
 
 def _below(site: Site) -> Iterator[Site]:
@@ -264,11 +264,12 @@ def replaced(program: ir.Program, path: Path, value: object) -> ir.Program:
     made = value
     for holder, step in zip(reversed(chain), reversed(path), strict=True):
         if isinstance(holder, tuple):
-            made = (*holder[:step], made, *holder[int(step) + 1 :])  # type: ignore[misc]
+            made = (*holder[: int(step)], made, *holder[int(step) + 1 :])
         else:
             made = replace(holder, **{str(step): made})  # type: ignore[type-var]  # nodes are dataclasses
-    return made  # type: ignore[return-value]
+    assert isinstance(made, ir.Program)
+    return made
 
 
 def _taken(holder: object, step: str | int) -> object:
-    return holder[step] if isinstance(holder, tuple) else getattr(holder, str(step))  # type: ignore[index]
+    return holder[int(step)] if isinstance(holder, tuple) else getattr(holder, str(step))
