@@ -1,4 +1,4 @@
-"""Arrays given to routines by reference, in targets whose data has numbers: the routine works with the array itself."""
+"""Arrays given to routines by reference, in targets whose data has numbers: what the routine sets is in the array."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from rpl.translation import translate_program
 FILL = ".PROGRAM fill(x[], n, first)\n AUTO REAL i\n FOR i = 1 TO n\n x[i] = first+i\n END\n.END\n"
 SUM = ".PROGRAM sum(x[], n, s)\n AUTO REAL i\n s = 0\n FOR i = 1 TO n\n s = s+x[i]\n END\n.END\n"
 HAND = ".PROGRAM hand(x[], n)\n CALL fill(x[], n, 10)\n.END\n"
-# Statements, what holds behind them, and how many routines there are beside the first one.
+# Statements and what holds behind them.
 CASES = {
-    "one array": ("CALL fill(a[], 3, 4)\nCALL sum(a[], 3, s)", "s == 18", 2),
-    "two arrays": ("CALL fill(a[], 3, 4)\nCALL fill(b[], 2, 0)\nCALL sum(a[], 3, s)", "(s == 18) AND (b[2] == 2)", 3),
-    "handed on": ("CALL hand(a[], 3)\nCALL sum(a[], 3, s)", "(s == 36) AND (a[3] == 13)", 3),
+    "one array": ("CALL fill(a[], 3, 4)\nCALL sum(a[], 3, s)", "s == 18"),
+    "two arrays": ("CALL fill(a[], 3, 4)\nCALL fill(b[], 2, 0)\nCALL sum(a[], 3, s)", "(s == 18) AND (b[2] == 2)"),
+    "handed on": ("CALL hand(a[], 3)\nCALL sum(a[], 3, s)", "(s == 36) AND (a[3] == 13)"),
 }
 
 
 @pytest.mark.parametrize("target", ["tp", "inform"])
 @pytest.mark.parametrize("name", CASES)
-def test_the_routine_works_with_the_array(name: str, target: str) -> None:
-    statements, holds, count = CASES[name]
+def test_the_array_has_what_the_routine_sets(name: str, target: str) -> None:
+    statements, holds = CASES[name]
     text = f".PROGRAM main()\n{statements}\nIF {holds} THEN\nSIGNAL 1\nEND\n.END\n{FILL}{SUM}"
     text += HAND if "hand" in statements else ""
     diagnostics = Diagnostics()
@@ -35,8 +35,6 @@ def test_the_routine_works_with_the_array(name: str, target: str) -> None:
     back = read_sources([source_from_bytes(f.path, f.data) for f in done.files], target, Diagnostics())
     result = run_program(back.program, entry=done.renamed.get("main", "main"))
     assert [value for _, _, value in result.outputs] == [True]
-    programs = [file for file in done.files if file.path.lower().endswith((".ls", ".jbi"))]
-    assert len(programs) == count + 1
 
 
 def test_an_array_of_a_routine_stays_its_own() -> None:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from rpl.passes.legalise.routines.aliases import without_aliases
 from rpl.passes.legalise.routines.arraysizes import array_sizes
-from rpl.passes.legalise.routines.givenarrays import given_arrays
 from rpl.passes.legalise.routines.optional import fit_parameters
 from rpl.passes.legalise.routines.results import list_results
 from rpl.passes.legalise.routines.subscriptchecks import checked_subscripts
@@ -22,7 +21,6 @@ STAGE = Stage(
         without_aliases,
         fit_parameters,
         asked_values,
-        given_arrays,
         copy_value_arrays,
         checked_subscripts,
         checked_text_parts,
