@@ -38,6 +38,13 @@ IN_USE = """MODULE main
   ENDPROC
 ENDMODULE
 """
+READ_BACK = """DEF main( )
+DECL REAL v
+$ANOUT[1]=0.5
+v=$ANOUT[1]
+$OUT[1]=v==0.5
+END
+"""
 PAYLOAD = """def main():
   set_payload(1.5, [0, 0, 0.05])
   if get_target_payload() > 1:
@@ -54,6 +61,7 @@ end
         (FIXED_ARC, "urscript", UR, [("fixed-arc-lost", 3)], "rapid tp inform vplus"),
         (HELD_ALONE, "krl", KUKA, [("interrupt-held-alone", 4), ("interrupt-held-alone", 6)], "rapid vplus"),
         (IN_USE, "rapid", ABB, [("record-in-use-lost", 4)], "krl tp urscript vplus inform"),
+        (READ_BACK, "krl", KUKA, [("vplus-guarded-stop", 4)], "vplus"),
         (PAYLOAD, "urscript", UR, [("payload-question-lost", 3)], "krl tp vplus inform"),
     ],
 )

@@ -7,10 +7,6 @@ from rpl.passes.legalise.stages import Placed
 
 from .onenamespace import one_namespace
 from .reactionsearches import reaction_searches
-from .writeonly import kept_outputs
 
-PASSES: tuple[Placed, ...] = (
-    Placed(reaction_searches, "searches", behind="searches"),
-    Placed(kept_outputs, "io", behind="groups_to_bits"),
-)
+PASSES: tuple[Placed, ...] = (Placed(reaction_searches, "searches", behind="searches"),)
 LAST = (one_namespace,)
