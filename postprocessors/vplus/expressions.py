@@ -28,7 +28,6 @@ class Notes:
     autos: list[str] = field(default_factory=list)
     helpers: set[str] = field(default_factory=set)
     changed_texts: list[str] = field(default_factory=list)
-    unpadded: list[str] = field(default_factory=list)  # formats of numbers whose filling V+ has not got
     steps: bool = True  # can steps stand in front?
     taken: set[str] = field(default_factory=set)
     own: set[str] = field(default_factory=set)  # names made here

@@ -30,11 +30,6 @@ GUARDED = code(
     "V+ cannot say this: {reason}",
     "the program stops there with PAUSE; write the step by hand",
 )
-UNPADDED = code(
-    "vplus-format-filling",
-    Severity.WARNING,
-    "V+ fills numbers with blanks on the left only, and texts not at all: {form} comes out without its own filling",
-)
 TEXT_CHANGED = code("vplus-text", Severity.WARNING, "a text is written in plain ASCII: {text}")
 _ASSIGNED_NUMBER = re.compile(r"[a-z][\w.]*(\[[^\]=]*\])? = ", re.IGNORECASE)
 _ROOM = tables.LONGEST_LINE - 12  # of a condition between its words
@@ -195,12 +190,10 @@ class Printer(StatementPrinter[str]):
 
     def statement(self, statement: ir.Statement, elsewhere: list[str] | None = None) -> None:
         """One statement, or its guarded stop. `elsewhere`: its lines stand later."""
-        known, unpadded, self.elsewhere = len(self.notes.changed_texts), len(self.notes.unpadded), elsewhere
+        known, self.elsewhere = len(self.notes.changed_texts), elsewhere
         super().statement(statement)
         for text in self.notes.changed_texts[known:]:
             self.diagnostics.report(TEXT_CHANGED, statement.origin, text=text)
-        for form in self.notes.unpadded[unpadded:]:
-            self.diagnostics.report(UNPADDED, statement.origin, form=form)
 
     def taken_back(self) -> None:
         self.notes.forget()

@@ -110,8 +110,9 @@ class Texts:
 
     def specified(self, found: re.Match[str], value: ir.Expression) -> list[tuple[str, str]]:
         letter, width, digits = found["letter"], found["width"] or "0", found["digits"]
-        if width != "0" and (found["flags"] or letter in "sc"):  # numbers only, blanks only, on the left only
-            self.expressions.notes.unpadded.append(found[0])
+        text = letter in "sc" and (width != "0" or digits)
+        if text or found["flags"].strip() or (found["flags"] and width == "0"):
+            self.refuse(f"{found[0]}: numbers are filled with blanks on the left, and nothing else")
         if letter in "sc" or self.is_text(value):
             return self.shown(value)
         if letter in "diu":

@@ -38,6 +38,19 @@ IN_USE = """MODULE main
   ENDPROC
 ENDMODULE
 """
+FILLED = """DEF main( )
+DECL INT offset
+DECL STATE_T state
+DECL CHAR line[40]
+offset=0
+SWRITE(line[],state,offset,"part %5.1f",7.5)
+SWRITE(line[],state,offset,"%03d",7)
+SWRITE(line[],state,offset,"%-4s|",line[])
+SWRITE(line[],state,offset,"%+d %%",7)
+SWRITE(line[],state,offset,"%.2s",line[])
+SWRITE(line[],state,offset,"%x",7)
+END
+"""
 READ_BACK = """DEF main( )
 DECL REAL v
 $ANOUT[1]=0.5
@@ -61,6 +74,7 @@ end
         (FIXED_ARC, "urscript", UR, [("fixed-arc-lost", 3)], "rapid tp inform vplus"),
         (HELD_ALONE, "krl", KUKA, [("interrupt-held-alone", 4), ("interrupt-held-alone", 6)], "rapid vplus"),
         (IN_USE, "rapid", ABB, [("record-in-use-lost", 4)], "krl tp urscript vplus inform"),
+        (FILLED, "krl", KUKA, [("text-format-lost", line) for line in range(7, 12)], "rapid tp urscript vplus inform"),
         (READ_BACK, "krl", KUKA, [("vplus-guarded-stop", 4)], "vplus"),
         (PAYLOAD, "urscript", UR, [("payload-question-lost", 3)], "krl tp vplus inform"),
     ],

@@ -141,11 +141,6 @@ CASES = [
         ("rpl_bytes_number(rpl_number_bytes({0}, 4), 1, 4) = {0}", N),
         ("rpl_number_bytes({0}, 4) = number_bytes({0}, 4)", N),
         ('rpl_in_order({0}, {1}, "cba") = text_order({0}, {1}, "cba")', LETTERS, LETTERS),
-        ('rpl_based({0}, 16, "0123456789ABCDEF") = format("%X", {0})', st.integers(0, 9999).map(str)),
-        ('rpl_zeros(number_text({0}, 0), 6) = format("%06d", {0})', N),
-        ('rpl_filled({0}, 9) = format("%-9s", {0})', LETTERS),
-        ('rpl_beginning({0}, 2) = format("%.2s", {0})', LETTERS),
-        ('rpl_signed(number_text({0}, 0), "+") = format("%+d", {0})', N),
         ("scans({0}, {1})", st.integers(-999, 999).map(str), st.sampled_from(('""', '" "', '"x"', '" 1"'))),
     ),
     *_rows(

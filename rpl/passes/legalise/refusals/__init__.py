@@ -21,6 +21,7 @@ from rpl.passes.legalise.refusals.routines import ROUTINES
 from rpl.passes.legalise.refusals.rows import Asked, Refusal
 from rpl.passes.legalise.refusals.settings import SETTINGS
 from rpl.passes.legalise.refusals.tasks import TASKS
+from rpl.passes.legalise.refusals.texts import TEXTS
 from rpl.passes.legalise.refusals.values import VALUES
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -36,7 +37,7 @@ TUNING = code(
     "set the same on the target's controller where it has it (payload, collision guard)",
 )
 
-REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM, *SETTINGS, *ROUTINES, *VALUES)
+REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM, *SETTINGS, *ROUTINES, *VALUES, *TEXTS)
 
 
 @legalising()

@@ -31,7 +31,6 @@ from rpl.passes.legalise.source.settingparts import whole_settings
 from rpl.passes.legalise.source.signalwords import signal_words
 from rpl.passes.legalise.source.sourcelayout import source_layout
 from rpl.passes.legalise.source.steptimes import step_times
-from rpl.passes.legalise.source.texts.formats import formats
 from rpl.passes.legalise.source.texts.leadingnumbers import leading_numbers
 from rpl.passes.legalise.source.texts.textbytes import text_bytes
 from rpl.passes.legalise.source.texts.textdecimals import text_decimals
@@ -82,7 +81,6 @@ STAGE = Stage(
         levels_to_distances,
         displacements,
         whole_settings,
-        formats,
         whole_texts,
         text_orders,
         text_bytes,

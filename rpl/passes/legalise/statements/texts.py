@@ -373,7 +373,7 @@ class TextHoister(Hoister):
             if found[1]:
                 pieces.append(ir.TextLiteral("%"))
                 continue
-            if not rest or (found[2] or "").startswith("0"):
+            if not rest or (found[2] or "").startswith("0") or (found[4] in "sc" and found[3]):
                 return None
             value = rest.pop(0)
             piece: ir.Expression

@@ -1,4 +1,4 @@
-"""SWRITE with fillings, signs and other bases, and numbers of interrupts that a routine declares: in every language."""
+"""Numbers of interrupts that a routine declares: in every language."""
 
 from __future__ import annotations
 
@@ -6,28 +6,6 @@ import pytest
 
 from tests.there_and_back import there_and_back
 
-SWRITE = """DEF FM( )
-  DECL INT OFS
-  DECL STATE_T ST
-  DECL CHAR L[40]
-  DECL CHAR P[20]
-  P[]="AB"
-  OFS=0
-  SWRITE(L[],ST,OFS,"%03d",7)
-  IF StrComp(L[],"007",#CASE_SENS) AND (OFS==3) THEN
-    $OUT[1]=TRUE
-  ENDIF
-  OFS=0
-  SWRITE(L[],ST,OFS,"%03d/%5.1f/%-4s|%%",-7,12.5,P[])
-  IF StrComp(L[],"-07/ 12.5/AB  |%",#CASE_SENS) THEN
-    $OUT[2]=TRUE
-  ENDIF
-  SWRITE(L[],ST,OFS,"%+d %x",7,255)
-  IF StrComp(L[],"-07/ 12.5/AB  |%+7 ff",#CASE_SENS) THEN
-    $OUT[3]=TRUE
-  ENDIF
-END
-"""
 HANDLES = """MODULE Job
   VAR num a:=0;
   VAR num b:=0;
@@ -69,14 +47,6 @@ HANDLES = """MODULE Job
 ENDMODULE
 """
 LANGUAGES = ["rapid", "krl", "tp", "urscript", "vplus", "inform", "rpl"]
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_fillings_signs_and_bases(language: str) -> None:
-    journey = there_and_back({"fm.src": SWRITE}, "krl", language, "kuka_kr6r900sixx")
-    assert set(journey.losses) <= {"tp-text-case"}
-    result = journey.run("FM")
-    assert result.fault is None and journey.switched_on(result) == {1, 2, 3}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
