@@ -123,7 +123,7 @@ END MODULE
 ALL = frozenset(("krl", "rapid", "tp", "urscript", "vplus", "inform"))
 NONE: frozenset[str] = frozenset()
 # source, its lines, and the targets in which the present value is written and named: postures and curves that are
-# worked out in the translation, and ends of paths whose orientation is that of their beginning.
+# worked out in the translation.
 CASES = {
     "shift": ("inform", "SFTON P001\nMOVL C00000 V=100.0 PL=0\nSFTOF\nMOVL C00000 V=100.0 PL=0", NONE),
     "shift before a joint move": ("inform", "SFTON P001\nMOVJ C00000 VJ=9.00 PL=0\nSFTOF\nMOVL C00000 V=9.0", NONE),
@@ -153,8 +153,8 @@ CASES = {
     ),
     "one orientation": (
         "krl",
-        "$ORI_TYPE=#CONSTANT\nPTP xPick\nLIN xPick:{X 0,Y 0,Z -50,A 10,B 0,C 0}\nLIN xPick",
-        ALL,
+        "$ORI_TYPE=#CONSTANT\nPTP xPick\nLIN xPick:{X 0,Y 0,Z -50,A 0,B 0,C 0}\nLIN xPick",
+        NONE,
     ),
     "curve": (
         "krl",

@@ -19,6 +19,21 @@ FIXED_ARC = """def main():
   movec(p[0.33, -0.17, 0.3, 3.14, 0, 0], p[0.36, -0.2, 0.3, 3.14, 0, 0], a=0.8, v=0.1, r=0, mode=1)
 end
 """
+ONE_ORIENTATION = """DEF main( )
+$TOOL=$NULLFRAME
+PTP {X 500.0,Y 0.0,Z 400.0,A 180.0,B 0.0,C 180.0,S 2,T 2}
+$ORI_TYPE=#CONSTANT
+LIN {X 520.0,Y 0.0,Z 380.0,A 180.0,B 0.0,C 180.0}
+LIN_REL {Z 40.0}
+LIN {X 540.0,Y 0.0,Z 380.0,A 180.0,B 0.0,C 180.0}
+LIN {X 520.0,Y 0.0,Z 380.0,A 150.0,B 0.0,C 180.0}
+LIN_REL {Z 10.0,B 5.0}
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 10,A6 0}
+LIN {X 500,Y 0,Z 400,A 150,B 0,C 180}
+$ORI_TYPE=#VAR
+LIN {X 500.0,Y 0.0,Z 400.0,A 150.0,B 0.0,C 180.0}
+END
+"""
 HELD_ALONE = """DEF main( )
 INTERRUPT DECL 5 WHEN $IN[1] DO HELD( )
 INTERRUPT ON 5
@@ -72,6 +87,13 @@ end
     [
         (RANDOM, "vplus", VIPER, [("random-numbers-lost", 3)], "rapid tp inform"),
         (FIXED_ARC, "urscript", UR, [("fixed-arc-lost", 3)], "rapid tp inform vplus"),
+        (
+            ONE_ORIENTATION,
+            "krl",
+            KUKA,
+            [("constant-orientation-lost", line) for line in (8, 9, 11)],
+            "rapid tp urscript vplus inform",
+        ),
         (HELD_ALONE, "krl", KUKA, [("interrupt-held-alone", 4), ("interrupt-held-alone", 6)], "rapid vplus"),
         (IN_USE, "rapid", ABB, [("record-in-use-lost", 4)], "krl tp urscript vplus inform"),
         (FILLED, "krl", KUKA, [("text-format-lost", line) for line in range(7, 12)], "rapid tp urscript vplus inform"),

@@ -25,8 +25,10 @@ BRAKING = {
     "acceleration_percent": 100.0,
     "joint_acceleration": 100.0,
 }
-# How the tool turns on arcs is followed too; setting it again is never left out, for targets start with other rules.
+# How the tool turns on arcs and on other paths is followed too; setting it again is never left out, for targets start
+# with other rules.
 _TURNS = "circle_orientation"
+_KEEPS = "orientation_mode"
 # What all speeds are a share of, and the highest (RAPID VelSet), as a controller has them that says nothing.
 _SHARES = {"speed_percent": 100.0, "speed_limit": 5000.0, "override": 100.0}
 # Percentage for slowing down, of languages that have one of their own: none where that is as strong as speeding up.
@@ -40,7 +42,7 @@ SCALED = {"scale_acceleration": False}
 # The least time of moves, s; none where nothing is said.
 _TIMES = {"move_duration": 0.0}
 _NUMBERS = BRAKING.keys() | _SHARES.keys() | _TIMES.keys()
-_FOLLOWED = SETTINGS | _NUMBERS | SCALED.keys() | _TURNING | {"displacement", _TURNS, _JOINED, _DOWN}
+_FOLLOWED = SETTINGS | _NUMBERS | SCALED.keys() | _TURNING | {"displacement", _TURNS, _KEEPS, _JOINED, _DOWN}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
@@ -129,8 +131,8 @@ class Flow:
 def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expression | None:
     if name in ("base", "displacement"):
         return ir.System("null_frame")
-    if name == _TURNS:
-        return ir.EnumLiteral(str(defaults.get(name, "base")))
+    if name in (_TURNS, _KEEPS):
+        return ir.EnumLiteral(str(defaults.get(name, "base" if name == _TURNS else "variable")))
     value = defaults.get(name, (BRAKING | _SHARES | _TIMES | SCALED).get(name))
     if isinstance(value, bool):
         return ir.BoolLiteral(value)
@@ -164,7 +166,7 @@ class _Settings(Forward[State]):
     def note(self, statement: ir.Statement, before: State) -> None:
         match statement:
             case ir.Assign(target=ir.System(name=name)) if name in _FOLLOWED:
-                if name not in (_TURNS, _JOINED, _DOWN, "override", *_TIMES, *_TURNING):
+                if name not in (_TURNS, _KEEPS, _JOINED, _DOWN, "override", *_TIMES, *_TURNING):
                     new = self.set_to(statement)
                     same = new is not None and before[name] == new
                     self.flow.repeated[id(statement)] = same and self.flow.repeated.get(id(statement), True)

@@ -17,6 +17,7 @@ from rpl.passes.legalise.records.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 from rpl.passes.legalise.source.rates import LOST as RATE
 from rpl.passes.legalise.source.ways.constantorientations import FIXED
+from rpl.passes.legalise.source.ways.constantorientations import LOST as KEPT
 
 __all__ = ["MOTION"]
 
@@ -82,6 +83,7 @@ MOTION = (
     Refusal("an action on the path that no task beside the move can do", NO_PATH_TASK),
     Refusal("an action a time before or behind a place on an arc", TIMED_ON_ARC),
     Refusal("a time that the program takes while the robot pauses", PAUSED_TIMED),
+    Refusal("a path that keeps the orientation of its start, where its end is written with another one", KEPT),
     Refusal("an arc along which the tool stays as it is to the arc", FIXED),
     Refusal("a motion at a given speed whose loop counts its passes or does other work", RATE),
 )
