@@ -16,24 +16,23 @@ PROGRAM = """/PROG  MAIN
 /POS
 /END
 """
-# Lines, target, whether it is refused, whether it is left out with a warning.
+# Lines, target, whether it is refused.
 CASES = [
-    ("OVERRIDE=100%", "urscript", False, True),
-    ("OVERRIDE=100%", "inform", False, True),
-    ("R[1]=1\nOVERRIDE=100%\nOVERRIDE=100%", "inform", False, True),
-    ("OVERRIDE=30%", "inform", False, False),
-    ("OVERRIDE=30%\nOVERRIDE=100%", "inform", False, False),
-    ("R[1]=50\nOVERRIDE=R[1]", "urscript", True, False),  # what the run decides
-    ("OVERRIDE=100%", "krl", False, False),
-    ("OVERRIDE=100%", "tp", False, False),
+    ("OVERRIDE=100%", "urscript", False),
+    ("OVERRIDE=100%", "inform", False),
+    ("R[1]=1\nOVERRIDE=100%\nOVERRIDE=100%", "inform", False),
+    ("OVERRIDE=30%", "inform", False),
+    ("OVERRIDE=30%\nOVERRIDE=100%", "inform", False),
+    ("R[1]=50\nOVERRIDE=R[1]", "urscript", True),  # what the run decides
+    ("OVERRIDE=100%", "krl", False),
+    ("OVERRIDE=100%", "tp", False),
 ]
 
 
-@pytest.mark.parametrize(("lines", "target", "refused", "left_out"), CASES)
-def test_only_the_full_override_is_left_out(lines: str, target: str, refused: bool, left_out: bool) -> None:
+@pytest.mark.parametrize(("lines", "target", "refused"), CASES)
+def test_only_what_the_run_decides_is_refused(lines: str, target: str, refused: bool) -> None:
     text = PROGRAM.format(lines="\n".join(f"{at:4}:  {line} ;" for at, line in enumerate(lines.splitlines(), 1)))
     diagnostics = Diagnostics()
     read = read_sources([source_from_text("MAIN.LS", text)], "tp", diagnostics)
     translate_program(read, target, "fanuc_lrmate200id", None, diagnostics)
     assert bool(diagnostics.of(Severity.LOSS)) == refused
-    assert ("override-by-operator" in {one.code.name for one in diagnostics.of(Severity.WARNING)}) == left_out

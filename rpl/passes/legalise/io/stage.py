@@ -11,7 +11,6 @@ from rpl.passes.legalise.io.declaredremarks import declared_remarks
 from rpl.passes.legalise.io.flagdata import flags_as_data
 from rpl.passes.legalise.io.keptsettings import kept_settings
 from rpl.passes.legalise.io.namednumbers import named_numbers
-from rpl.passes.legalise.io.overrides import full_override
 from rpl.passes.legalise.io.readoverrides import read_overrides
 from rpl.passes.legalise.io.signals import name_signals, number_signals
 from rpl.passes.legalise.io.speedshares import speed_shares
@@ -23,7 +22,6 @@ STAGE = Stage(
     (
         declared_remarks,
         speed_shares,
-        full_override,
         read_overrides,
         kept_settings,
         timers_to_clocks,
