@@ -66,6 +66,24 @@ SWRITE(line[],state,offset,"%.2s",line[])
 SWRITE(line[],state,offset,"%x",7)
 END
 """
+COMPARED = """MODULE main
+  RECORD size
+    num width;
+    num height;
+  ENDRECORD
+  PERS size a:=[1,2];
+  PERS size b:=[1,2];
+  VAR robtarget p1;
+  PERS robtarget p2:=[[400,0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    IF a.width=b.width SetDO do1,1;
+    IF a=b SetDO do2,1;
+    p1:=p2;
+    IF p1.trans=p2.trans SetDO do3,1;
+    IF p1<>p2 SetDO do4,1;
+  ENDPROC
+ENDMODULE
+"""
 READ_BACK = """DEF main( )
 DECL REAL v
 $ANOUT[1]=0.5
@@ -97,6 +115,13 @@ end
         (HELD_ALONE, "krl", KUKA, [("interrupt-held-alone", 4), ("interrupt-held-alone", 6)], "rapid vplus"),
         (IN_USE, "rapid", ABB, [("record-in-use-lost", 4)], "krl tp urscript vplus inform"),
         (FILLED, "krl", KUKA, [("text-format-lost", line) for line in range(7, 12)], "rapid tp urscript vplus inform"),
+        (
+            COMPARED,
+            "rapid",
+            ABB,
+            [("record-comparison-lost", 12), ("record-comparison-lost", 15)],
+            "krl tp urscript vplus inform",
+        ),
         (READ_BACK, "krl", KUKA, [("vplus-guarded-stop", 4)], "vplus"),
         (PAYLOAD, "urscript", UR, [("payload-question-lost", 3)], "krl tp vplus inform"),
     ],

@@ -5,7 +5,6 @@ signal's value is converted as any other.
 from __future__ import annotations
 
 from rpl.passes.legalise.data.arrays import array_bases
-from rpl.passes.legalise.data.comparedrecords import compared_records
 from rpl.passes.legalise.data.datalists import set_data_at_start
 from rpl.passes.legalise.data.defaults import starting_values
 from rpl.passes.legalise.data.lists import lists_in_variables
@@ -18,7 +17,6 @@ STAGE = Stage(
     "data",
     (
         lists_in_variables,
-        compared_records,
         joined_subscripts,
         array_bases,
         set_data_at_start,

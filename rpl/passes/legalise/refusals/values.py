@@ -7,8 +7,11 @@ from typing import get_args
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.facts.usage import each_expression
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
+from rpl.passes.typewords import component_names
+from rpl.passes.typing import type_of
 
 __all__ = ["VALUES"]
 
@@ -31,6 +34,13 @@ PAYLOAD = code(
     Severity.LOSS,
     "the target's programs cannot ask for the payload in use",
     "keep it in variables where it is set",
+    stops=True,
+)
+COMPARED = code(
+    "record-comparison-lost",
+    Severity.LOSS,
+    "the target compares numbers, texts and truths, not {what} as a whole",
+    "compare the components that matter, places by how far they are apart",
     stops=True,
 )
 _IN_USE = {"current_tool": "tool", "current_frame": "work object"}
@@ -76,8 +86,39 @@ def _payload(statement: ir.Statement, asked: Asked) -> Found:
     return PLAINLY if found else ()
 
 
+def _compared(statement: ir.Statement, asked: Asked) -> Found:
+    """Whole records, places and joints that are compared."""
+    found: list[Mapping[str, object]] = []
+
+    def look(expression: ir.Expression) -> None:
+        match expression:
+            case ir.Binary(op="=" | "<>", left=left, right=right):
+                found.extend({"what": what} for side in (left, right) if (what := _record(side, asked)))
+
+    if DataRule.COMPARED_RECORDS not in asked.can.data.rules and not asked.can.carries_rules:
+        each_expression(statement, look)
+    return tuple(found[:1])
+
+
+def _record(side: ir.Expression, asked: Asked) -> str:
+    """What is compared where it has components; nothing of a number, a text, a truth or a pose."""
+    type = type_of(side, asked.scope)
+    names = component_names(type, asked.scope) if type is not None else ()
+    match type:
+        case ir.NamedType(name=name) if names:
+            return name
+        case ir.TargetType() if "trans" in names:
+            return "places"
+        case ir.JointsType() | ir.AxesType() if "robax" in names or isinstance(type, ir.AxesType):
+            return "joints"
+    return ""
+
+
 VALUES = (
     Refusal("random numbers", RANDOM, get_args(ir.Statement), _lacking("random")),
     Refusal("the tool or work object in use as a record", USED, (ir.Assign,), _in_use, left=False),
     Refusal("the payload in use", PAYLOAD, get_args(ir.Statement), _payload),
+    Refusal(
+        "records, places and joints that are compared as a whole", COMPARED, get_args(ir.Statement), _compared, False
+    ),
 )
