@@ -43,6 +43,7 @@ FIXED = code(
     stops=True,
 )
 _MODE = "orientation_mode"
+_FIXED = ("constant", "path")
 _SAME = 1e-9  # of the quaternions' product: less than a hundredth of a degree
 _NO_ANGLES = frozenset(("x", "y", "z", "s", "t"))  # a place without angles keeps the orientation anyway
 
@@ -58,7 +59,7 @@ def constant_orientations(program: ir.Program, context: Context) -> ir.Program:
         def change(statement: ir.Statement) -> ir.Body:
             if not isinstance(statement, ir.Move):
                 return (statement if isinstance(statement, ir.Spline) else inside(statement, body),)
-            if statement.kind == "circular" and _constant(statement) and statement.circle_orientation == "path":
+            if statement.kind == "circular" and (statement.orientation, statement.circle_orientation) == _FIXED:
                 given = PathRule.FIXED_ARCS in context.capabilities.motion.paths
                 return (statement if given else stopped(statement, FIXED, context),)
             return (stopped(statement, LOST, context) if paths.turns(statement) else statement,)
