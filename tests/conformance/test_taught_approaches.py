@@ -154,7 +154,7 @@ CASES = {
     "one orientation": (
         "krl",
         "$ORI_TYPE=#CONSTANT\nPTP xPick\nLIN xPick:{X 0,Y 0,Z -50,A 0,B 0,C 0}\nLIN xPick",
-        NONE,
+        {"vplus"},
     ),
     "curve": (
         "krl",
