@@ -57,6 +57,11 @@ class Labels:
         return self.names[name.lower()]
 
 
+_SIGNS = "_-"  # beside letters and digits, in jobs of plants (`*NO_PICK`); a longer name says more without them
+
+
 def _spelled(name: str) -> str:
-    plain = "".join(sign for sign in name.upper() if sign.isascii() and sign.isalnum())
+    plain = "".join(sign for sign in name.upper() if sign.isascii() and (sign.isalnum() or sign in _SIGNS))
+    if len(plain) > tables.LONGEST_LABEL or not plain.strip(_SIGNS):
+        plain = "".join(sign for sign in plain if sign.isalnum())
     return plain[: tables.LONGEST_LABEL] or "L"

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .expressions import Expressions
 
 DEFAULT = "/D"
+_FORMS = frozenset(("format", "message_text", "number_text", "value_text"))
 _SPECIFIER = re.compile(r"%(?:%|(?P<flags>[-+ 0]*)(?P<width>\d*)(?:\.(?P<digits>\d+))?(?P<letter>[a-zA-Z]))")
 _PLACE = re.compile(r"%(\d)")
 _READERS_OWN = "% .8g"  # how the reader spells a number without a control
@@ -60,6 +61,8 @@ class Texts:
                 return [(f"/F0.{places}", self.item(value))]
             case ir.Builtin(function="value_text", arguments=(value,)):
                 return self.shown(value)
+            case ir.Builtin(function=name) if name in _FORMS:
+                self.refuse("a text whose form the run decides")
         return [("", self.expressions.text(text))]
 
     def item(self, value: ir.Expression) -> str:
@@ -153,7 +156,7 @@ class Texts:
     def function(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed | None:
         expressions = self.expressions
         match name, values:
-            case (("format" | "message_text" | "number_text" | "value_text"), _):
+            case _ if name in _FORMS:
                 return self.encoded(ir.Builtin(name, values))
             case "text_part", (text, first, count):
                 return f"$MID({expressions.listed((text, first, count))})"

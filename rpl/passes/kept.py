@@ -97,6 +97,21 @@ def kept_values(program: ir.Program) -> dict[str, tuple[str, str]]:
     return found
 
 
+def unknown_data(program: ir.Program) -> set[str]:
+    """Data of which no file gives any part, folded."""
+    kept, found = kept_values(program), set[str]()
+    for module in program.modules:
+        for one in module.declarations:
+            match one:
+                case ir.Variable(name=name, storage="persistent", initial=ir.VendorValue()) if name.lower() in kept:
+                    found.add(name.lower())
+                case ir.Variable(name=name, storage="persistent", initial=ir.Aggregate(entries=entries)) if entries:
+                    whole = f"{name.lower()}["
+                    if sum(key.startswith(whole) and key != f"{whole}]" for key in kept) == len(entries):
+                        found.add(name.lower())
+    return found
+
+
 def _known_element(place: ir.Expression, found: dict[str, tuple[str, str]]) -> None:
     """A value that is given behind the declaration: the element is known, and with it some element of the list."""
     match place:
@@ -503,4 +518,12 @@ def zero_of(type: ir.Type) -> ir.Expression | None:
     return None
 
 
-__all__ = ["UnsetRead", "kept_values", "report_taken_as_zero", "unset_reads", "without_unknown", "zero_of"]
+__all__ = [
+    "UnsetRead",
+    "kept_values",
+    "report_taken_as_zero",
+    "unknown_data",
+    "unset_reads",
+    "without_unknown",
+    "zero_of",
+]

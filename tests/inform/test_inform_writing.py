@@ -185,6 +185,11 @@ def test_labels_stay_apart() -> None:
     ]
 
 
+def test_a_short_label_stays_as_it_is() -> None:
+    labels = Labels.of((ir.Label("no_pick"), ir.Label("NO-PLACE"), ir.Label("__")))
+    assert [labels.name(name) for name in ("no_pick", "NO-PLACE", "__")] == ["NO_PICK", "NO-PLACE", "L"]
+
+
 def test_waits() -> None:
     first = ir.Signal("digital_in", ir.IntLiteral(1))
     both = ir.Binary("and", first, ir.Signal("digital_in", ir.IntLiteral(2)))

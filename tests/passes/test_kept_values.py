@@ -114,8 +114,9 @@ def test_position_variables_without_a_value_are_named(target: str) -> None:
     program = read("inform", job("MOVJ P001 VJ=50.00", "MOVL P002 V=100.0"))
     found = Diagnostics()
     written = translate_program(program, target, None, None, found)
-    names = [item.message.split()[0] for item in found.of(Severity.LOSS) if item.code.name == "kept-value-unknown"]
-    assert names == ["P001", "P002"]
+    (told,) = [item for item in found.of(Severity.LOSS) if item.code.name == "kept-value-unknown"]
+    assert told.message.endswith("read: P001, P002 (line 10)")  # one report for one cause
+    assert '"P001" = ..., "P002" = ...' in told.as_text()
     back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], target, Diagnostics())
     result = run_program(back.program, "motoman_gp7")
     assert result.status == "stopped" and not [event for event in result.trace if event.kind == "move"]

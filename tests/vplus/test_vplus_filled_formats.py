@@ -31,3 +31,12 @@ def test_formats_mean_the_same(form: str, text: str | None) -> None:
     if text:
         back = read_sources([source_from_bytes(f.path, f.data) for f in written.files], "vplus", diagnostics)
         assert [value for _, _, value in run_program(back.program, ROBOT, None, "main").outputs] == [True]
+
+
+def test_a_form_that_the_run_decides_is_refused() -> None:
+    diagnostics = Diagnostics()
+    program = PROGRAM.replace('"FORM|"', "t").replace("VAR n", "VAR t: STRING[40]\nVAR n")
+    read = read_sources([source_from_text("p.rpl", program)], "rpl", diagnostics)
+    written = translate_program(read, "vplus", ROBOT, None, diagnostics)
+    assert "a text whose form the run decides" in "\n".join(one.as_text() for one in diagnostics.of(Severity.LOSS))
+    assert "PAUSE" in source_from_bytes(written.files[0].path, written.files[0].data).text

@@ -14,7 +14,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.facts.framenumbers import Table, is_none, names_in, tables_of
+from rpl.passes.legalise.facts.framenumbers import Table, is_none, key_of, names_in, own_number, tables_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -63,7 +63,9 @@ def _said(node: object) -> Iterator[tuple[str, ir.Expression]]:
 
 
 def _is_nothing(value: ir.Expression, scope: Scope, unchanged: Unchanged) -> bool:
-    """Is it the flange, or the base?"""
+    """Is it the flange, or the base? A table's element with a number is none, though its value is not known yet."""
+    if own_number(key_of(value, scope)):
+        return False
     return pose_of(constant(value, scope, unchanged)) == rigid.IDENTITY
 
 

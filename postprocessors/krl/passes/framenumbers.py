@@ -17,7 +17,17 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.framenumbers import Key, is_shared, key_of, label_of, names_in, own_number
+from rpl.passes.legalise.facts.framenumbers import (
+    Element,
+    Key,
+    element_of,
+    is_shared,
+    key_of,
+    label_of,
+    names_in,
+    own_number,
+    said_numbers,
+)
 from rpl.passes.legalise.facts.mentioned import mentioned
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -39,8 +49,13 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
     scopes = ProgramScope(program)
     unchanged = unchanged_in(program)
     found = _found(program, scopes, unchanged)
-    made = {name: _numbered(name, found[name], context) for name in tables.SELECTED}
-    numbers = {key: element(name, n) for name, table in made.items() for key, n in table.numbers.items()}
+    said = said_numbers(walk(*(routine for module in program.modules for routine in module.routines)))
+    world = {key for key, pose in found["base"].items() if _said(key, said) == 0 and pose == rigid.IDENTITY}
+    for key in world:
+        del found["base"][key]
+    made = {name: _numbered(name, found[name], said, context) for name in tables.SELECTED}
+    numbers: dict[Key, ir.Expression] = dict.fromkeys(world, ir.System("null_frame"))
+    numbers |= {key: element(name, n) for name, table in made.items() for key, n in table.numbers.items()}
     if not numbers:
         return program
     modules = []
@@ -53,6 +68,8 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
     done = _without_noted(replace(program, modules=tuple(modules)))
     gone = {id for _, declared in numbers for id in declared}
     done, remarks = _without_unread(done, gone)
+    if not any(table.numbers for table in made.values()):
+        return done
     context.taken.add(tables.CONFIG)
     home = ir.Module(tables.CONFIG, program.modules[0].dialect, tuple(_lines(made, remarks)), public=True)
     return replace(done, modules=(*done.modules, home))
@@ -61,7 +78,7 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
 class _Numbers:
     """The statements of one routine with elements of the tables in place of the data."""
 
-    def __init__(self, numbers: Mapping[Key, ir.Index], scope: Scope) -> None:
+    def __init__(self, numbers: Mapping[Key, ir.Expression], scope: Scope) -> None:
         self.numbers, self.scope = numbers, scope
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -82,6 +99,12 @@ class _Numbers:
             if found is not None:
                 return found
         return rewrite_parts(expression, self.change)
+
+
+def _said(key: Key, said: Mapping[Element, int]) -> int | None:
+    """The number that the program notes where it selects the element; None: none."""
+    element = element_of(key[0])
+    return None if element is None else said.get(element)
 
 
 def element(name: str, number: int) -> ir.Index:
@@ -118,11 +141,11 @@ def _found(program: ir.Program, scopes: ProgramScope, unchanged: Unchanged) -> d
     return found
 
 
-def _numbered(name: str, found: Mapping[Key, rigid.Pose], context: Context) -> _Table:
+def _numbered(name: str, found: Mapping[Key, rigid.Pose], said: Mapping[Element, int], context: Context) -> _Table:
     bank = tables.SELECTED[name]
     labels = _labels(name, found)
     earlier = {label: number for (kind, number), label in context.registers.items() if kind == bank}
-    wanted = {key: earlier.get(labels[key]) or own_number(key) for key in found}
+    wanted = {key: earlier.get(labels[key]) or _said(key, said) or own_number(key) for key in found}
     table = _Table()
     for key in sorted(found, key=lambda one: not wanted[one]):
         free = (one for one in (wanted[key], *range(1, tables.MOST_FRAMES + 1)) if one and one not in table.values)

@@ -85,7 +85,8 @@ class Context:
     is said of analogue signals, by language. `stretches`: of runs, for each of which one move stands in the program;
     `before`: the reports that were there in front of the passes. `unreached`: places to which the arm that runs the
     result does not come, by where they stand in the source; `flanges`: where it has to come, as far as that is known,
-    4x4 in mm, in the arm's base. `there`: what stands on the robot that will run it."""
+    4x4 in mm, in the arm's base. `there`: what stands on the robot that will run it. `unknown`: data, folded, that the
+    source's controller keeps and whose value stands in no file; its zero is nothing to begin with."""
 
     source: str
     target: str
@@ -105,6 +106,7 @@ class Context:
     unreached: dict[tuple[int, int], Unreached] = field(default_factory=dict)
     flanges: list[Any] = field(default_factory=list)
     there: Standing = NOTHING
+    unknown: set[str] = field(default_factory=set)
 
     @property
     def foreign(self) -> bool:

@@ -15,21 +15,23 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes import rigid
+from rpl.passes.capabilities import MoveSetting, Settings
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.framenumbers import Element, element_of, said_numbers
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope
 from rpl.passes.values import pose_of
 from rpl.source import Origin
 
-_Element = tuple[str, int]  # folded name of the table, index
 _STEMS = {"tool": ("tool", "t"), "base": ("wobj", "wobj")}  # without and with a name
+_PLAIN_STEMS = {"tool": ("tool", "tool"), "base": ("frame", "frame")}  # where they are plain poses
 _DATA, _NAMES = "data", "name"  # how a table and the one with its names end
 
 
-@legalising(unless=lambda context: not context.capabilities.settings.no_tool, sees=("Index",))
+@legalising(unless=lambda context: not _named(context.capabilities.settings), sees=("Index",))
 def poses_of_tables(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose moves need records as tool and frame."""
+    """Only for targets whose moves say their frame; the others select an element of a table themselves."""
     kinds = _kinds(program)
     tables = {name: one for name, one in _tables(program).items() if any(table == name for table, _ in kinds)}
     if not tables:
@@ -37,9 +39,13 @@ def poses_of_tables(program: ir.Program, context: Context) -> ir.Program:
     return _Tables(program, context, tables, kinds).program()
 
 
-def _kinds(program: ir.Program) -> dict[_Element, str]:
+def _named(settings: Settings) -> bool:
+    return bool(settings.no_tool) or MoveSetting.FRAME in settings.of_moves
+
+
+def _kinds(program: ir.Program) -> dict[Element, str]:
     """What elements of tables are set as, tool or base."""
-    found: dict[_Element, str] = {}
+    found: dict[Element, str] = {}
     for node in walk(*program.modules):
         given: tuple[tuple[ir.Expression | None, str], ...] = ()
         match node:
@@ -48,17 +54,10 @@ def _kinds(program: ir.Program) -> dict[_Element, str]:
             case ir.Move(tool=tool, frame=frame):
                 given = ((tool, "tool"), (frame, "base"))
         for place, kind in given:
-            element = _element(place)
+            element = element_of(place)
             if element is not None:
                 found.setdefault(element, kind)
     return found
-
-
-def _element(place: object) -> _Element | None:
-    match place:
-        case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=at),)):
-            return name.lower(), at
-    return None
 
 
 def _tables(program: ir.Program) -> dict[str, ir.Variable]:
@@ -73,7 +72,7 @@ def _tables(program: ir.Program) -> dict[str, ir.Variable]:
                 used[name.lower()] += 1
             case ir.Variable(name=name) | ir.Parameter(name=name):
                 names[name.lower()] += 1  # once more: those of routines hide the table
-        element = _element(node)
+        element = element_of(node)
         if element is not None:
             told[element[0]] += 1
     return {name: one for name, one in found.items() if used[name] == told[name] and names[name] == 2}
@@ -88,17 +87,17 @@ class _Tables:
     source: ir.Program
     context: Context
     tables: dict[str, ir.Variable]
-    kinds: dict[_Element, str]
-    names: dict[_Element, ir.Expression] = field(default_factory=dict)
-    listed: dict[_Element, list[ir.Assign]] = field(default_factory=dict)  # values that data lists give
-    assigned: set[_Element] = field(default_factory=set)  # by the program
+    kinds: dict[Element, str]
+    names: dict[Element, ir.Expression] = field(default_factory=dict)
+    listed: dict[Element, list[ir.Assign]] = field(default_factory=dict)  # values that data lists give
+    assigned: set[Element] = field(default_factory=set)  # by the program
 
     def program(self) -> ir.Program:
         nodes = [*walk(*(one for module in self.source.modules for one in module.routines))]
-        said = dict(_said_numbers(nodes, self.tables))
+        said = said_numbers(nodes)
         self.look()
         for node in nodes:
-            element = _element(node)
+            element = element_of(node)
             if element is not None and element[0] in self.tables and element not in self.names:
                 self.names[element] = self.named(element, said.get(element, element[1]))
 
@@ -108,7 +107,7 @@ class _Tables:
             match node:
                 case ir.Assign(target=ir.Name(id=name), origin=origin) if name.lower() in unread:
                     return ir.Nothing(origin=origin) if origin.comments else ()
-            element = _element(node)
+            element = element_of(node)
             return self.names.get(element, node) if element is not None else node
 
         modules = []
@@ -126,11 +125,11 @@ class _Tables:
         """Where elements get their values."""
         for module in self.source.modules:
             for one in module.declarations:
-                element = _element(one.assign.target) if isinstance(one, ir.Initialise) else None
+                element = element_of(one.assign.target) if isinstance(one, ir.Initialise) else None
                 if element is not None and isinstance(one, ir.Initialise):
                     self.listed.setdefault(element, []).append(one.assign)
             for node in walk(*module.routines):
-                element = _element(node.target) if isinstance(node, ir.Assign) else None
+                element = element_of(node.target) if isinstance(node, ir.Assign) else None
                 if element is not None:
                     self.assigned.add(element)
 
@@ -149,24 +148,24 @@ class _Tables:
             if used[name] == count and any(name.startswith(f"{table}_") for table in self.tables)
         }
 
-    def named(self, element: _Element, number: int) -> ir.Expression:
+    def named(self, element: Element, number: int) -> ir.Expression:
         """The element's new name; the frame that its controller calls 0 is the robot's own and no datum."""
         kind = self.kinds.get(element)
         if number == 0 and kind is not None and self.is_nowhere(element):
             return ir.System("null_frame")
         if kind is None:
             return ir.Name(self.context.fresh(f"{self.tables[element[0]].name}{number}"))
-        bare, stem = _STEMS[kind]
+        bare, stem = (_STEMS if self.context.capabilities.settings.no_tool else _PLAIN_STEMS)[kind]
         word = self.word(element)
         return ir.Name(self.context.fresh(f"{stem}{word}" if word else f"{bare}{number}"))
 
-    def is_nowhere(self, element: _Element) -> bool:
+    def is_nowhere(self, element: Element) -> bool:
         """Is it no offset at all, which nothing sets?"""
         first = self.first(element)
         scope = ProgramScope(self.source).module(self.source.modules[0])
         return element not in self.assigned and (first is None or pose_of(constant(first, scope)) == rigid.IDENTITY)
 
-    def word(self, element: _Element) -> str:
+    def word(self, element: Element) -> str:
         """What the table of names beside it says, as a part of a name: `vacuum` is Vacuum."""
         table = element[0]
         if not table.endswith(_DATA):
@@ -185,7 +184,7 @@ class _Tables:
                         return "".join(word[:1].upper() + word[1:] for word in words)
         return ""
 
-    def first(self, element: _Element) -> ir.Expression | None:
+    def first(self, element: Element) -> ir.Expression | None:
         """The value that the table declares for the element, or a data list gives it once."""
         table, listed = self.tables[element[0]], self.listed.get(element, [])
         if len(listed) == 1 and not any(isinstance(one, ir.Name) for one in walk(listed[0].value)):
@@ -203,14 +202,14 @@ class _Tables:
                     for at, (element, new) in enumerate(sorted(self.own(name), key=lambda pair: pair[0]))
                 ]
             case ir.Initialise(assign=ir.Assign(target=target, value=value)):
-                element = _element(target)
+                element = element_of(target)
                 if element is None or element[0] not in self.tables:
                     return [one]
                 if element not in self.names or self.first(element) is value:
                     return []
         return [one]
 
-    def own(self, table: str) -> Iterator[tuple[_Element, ir.Name]]:
+    def own(self, table: str) -> Iterator[tuple[Element, ir.Name]]:
         for element, new in self.names.items():
             if element[0] == table.lower() and isinstance(new, ir.Name):
                 yield element, new
@@ -218,18 +217,3 @@ class _Tables:
 
 def _bare(one: ir.Variable, at: int) -> Origin:
     return one.origin if at == 0 else replace(one.origin, comments=())
-
-
-def _said_numbers(nodes: Sequence[object], tables: dict[str, ir.Variable]) -> Iterator[tuple[_Element, int]]:
-    """The number by which the program calls an element where it sets it, if it notes that one just before: UFRAME_NUM=0
-    goes with the first element of UFRAME."""
-    noted: tuple[str, int] | None = None
-    for node in nodes:
-        match node:
-            case ir.Assign(target=ir.Name(id=name), value=ir.IntLiteral(value=number)):
-                noted = name.lower(), number
-            case ir.Assign(target=ir.System(name="tool" | "base"), value=value):
-                element = _element(value)
-                if element is not None and noted is not None and noted[0].startswith(element[0]):
-                    yield element, noted[1]
-                noted = None

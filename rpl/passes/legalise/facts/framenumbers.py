@@ -25,6 +25,7 @@ _DIGITS = re.compile(r"(\d+)\D*\Z")
 Key = tuple[ir.Expression, tuple[int, ...]]
 # Kind (`tool`, `base`) -> the controller's bank and its last number.
 Banks = Mapping[str, tuple[str, int]]
+Element = tuple[str, int]  # folded name of a table, index
 
 
 @dataclass(slots=True)
@@ -141,3 +142,28 @@ def _values(pose: rigid.Pose) -> tuple[float, ...]:
 def _pose(pose: rigid.Pose) -> ir.Aggregate:
     parts = zip(ir.POSE, _values(pose), strict=True)
     return ir.Aggregate(tuple((part, ir.RealLiteral(value + 0.0)) for part, value in parts), type_name="pose")
+
+
+def element_of(place: object) -> Element | None:
+    """The element of a table that is said by a number."""
+    match place:
+        case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=at),)):
+            return name.lower(), at
+    return None
+
+
+def said_numbers(nodes: Iterable[object]) -> dict[Element, int]:
+    """The number by which the program calls an element where it selects it, if it notes that one just before:
+    UFRAME_NUM=0 goes with the first element of UFRAME."""
+    found: dict[Element, int] = {}
+    noted: tuple[str, int] | None = None
+    for node in nodes:
+        match node:
+            case ir.Assign(target=ir.Name(id=name), value=ir.IntLiteral(value=number)):
+                noted = name.lower(), number
+            case ir.Assign(target=ir.System(name="tool" | "base"), value=value):
+                element = element_of(value)
+                if element is not None and noted is not None and noted[0].startswith(element[0]):
+                    found[element] = noted[1]
+                noted = None
+    return found

@@ -13,8 +13,8 @@ import re
 from dataclasses import replace
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
-from rpl.passes.kept import UnsetRead, unset_reads, without_unknown
+from rpl.diagnostics import Code, Severity, code
+from rpl.passes.kept import UnsetRead, unknown_data, unset_reads, without_unknown
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.stages import legalising
 from rpl.source import Comment, Origin
@@ -22,19 +22,18 @@ from rpl.source import Comment, Origin
 UNKNOWN = code(
     "kept-value-unknown",
     Severity.LOSS,
-    "{name} is read before the program sets it: its value stands on the controller only, and in no file that was read",
-    "add the controller's file with the values to the project, or give the value in the cell file:"
-    ' [variables] "{path}" = ...',
+    "read before the program sets it, and its value stands on the controller only, in no file that was read: {name}",
+    "add the controller's file with the values to the project, or give the value in the cell file: [variables] {path}",
     stops=True,
 )
 
 UNCERTAIN = code(
     "kept-value-uncertain",
     Severity.WARNING,
-    "{name} may be read before the program has set all of it: what the controller keeps then stands in no file that was"
-    " read",
+    "may be read before the program has set all of it, and what the controller keeps then stands in no file that was"
+    " read: {name}",
     "set it first, add the controller's file with the values to the project, or give the value in the cell file:"
-    ' [variables] "{path}" = ...',
+    " [variables] {path}",
 )
 
 
@@ -43,10 +42,10 @@ def kept_values_known(program: ir.Program, context: Context) -> ir.Program:
     """For all targets; first of all, because a zero is a value like any other to what follows."""
     found = unset_reads(program)
     done = without_unknown(program)
-    for one in found:
-        what = UNCERTAIN if one.may_be_set else UNKNOWN
-        context.diagnostics.report(what, one.origin, name=one.name, path=one.path)
+    context.unknown |= unknown_data(program)
     unset = [one for one in found if not one.may_be_set]
+    _report(UNKNOWN, unset, context)
+    _report(UNCERTAIN, [one for one in found if one.may_be_set], context)
     if not unset:
         return done
     stops = {name.lower(): _stop([one for one in unset if name in one.roots]) for one in unset for name in one.roots}
@@ -65,6 +64,20 @@ def kept_values_known(program: ir.Program, context: Context) -> ir.Program:
         for module in done.modules
     )
     return replace(done, modules=modules)
+
+
+def _report(what: Code, found: list[UnsetRead], context: Context) -> None:
+    """One report for one cause, the file that is not there; each value with the line that reads it."""
+    if not found:
+        return
+    first = found[0].origin
+    names = [found[0].name, *(f"{one.name} ({_line(one.origin, first)})" for one in found[1:])]
+    paths = ", ".join(f'"{one.path}" = ...' for one in found)
+    context.diagnostics.report(what, first, name=", ".join(names), path=paths)
+
+
+def _line(origin: Origin, first: Origin) -> str:
+    return f"line {origin.line}" if origin.file == first.file else f"{origin.file}, line {origin.line}"
 
 
 def _remarks(unset: list[UnsetRead], context: Context) -> dict[str, tuple[Comment, ...]]:

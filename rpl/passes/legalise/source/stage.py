@@ -9,6 +9,7 @@ from rpl.passes.legalise.source.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.source.fixeddata import fixed_data
 from rpl.passes.legalise.source.grownarrays import grown_arrays
 from rpl.passes.legalise.source.keptvalues import kept_values_known
+from rpl.passes.legalise.source.knownlimits import known_limits
 from rpl.passes.legalise.source.loadvariables import load_variables
 from rpl.passes.legalise.source.namedflags import named_flags
 from rpl.passes.legalise.source.neutralfunctions import neutral_functions
@@ -23,6 +24,7 @@ from rpl.passes.legalise.source.places.pulses import fold_pulses
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
 from rpl.passes.legalise.source.places.shiftedplaces import shifted_places
+from rpl.passes.legalise.source.places.unknownpulses import unknown_pulses
 from rpl.passes.legalise.source.precisions import precisions
 from rpl.passes.legalise.source.rates import rates
 from rpl.passes.legalise.source.readports import read_ports
@@ -38,6 +40,7 @@ from rpl.passes.legalise.source.texts.textlengths import text_lengths
 from rpl.passes.legalise.source.texts.textorders import text_orders
 from rpl.passes.legalise.source.texts.wholetexts import whole_texts
 from rpl.passes.legalise.source.timedwaits import timed_waits
+from rpl.passes.legalise.source.undeclareddata import undeclared_data
 from rpl.passes.legalise.source.untyped import drop_untyped
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
@@ -49,7 +52,9 @@ from rpl.passes.legalise.stages import Clause, Stage
 STAGE = Stage(
     "source",
     (
+        unknown_pulses,
         kept_values_known,
+        undeclared_data,
         signal_words,
         fixed_data,
         names_of_local_routines,
@@ -66,6 +71,7 @@ STAGE = Stage(
         step_times,
         load_variables,
         whole_times,
+        known_limits,
         timed_waits,
         same_units,
         cyclic_flags,

@@ -248,9 +248,14 @@ class _Numbered(Rewriter):
             element = self.scope.resolve(type.element) if isinstance(type, ir.ArrayType) else type
             gone = self.is_constant(declaration, element, self.scope, id(declaration) in self.facts.chosen)
             return [] if gone else super().declaration(declaration)
-        if declaration.initial is not None:
+        if declaration.initial is not None and not self.is_kept_there(declaration):
             self.initialised(declaration, place)
         return []
+
+    def is_kept_there(self, declaration: ir.Variable) -> bool:
+        """Data whose value nobody knows: the target's controller keeps what is stored there, as the source's does."""
+        kept = declaration.storage == "persistent" and self.scope.routine_here is None
+        return kept and declaration.name.lower() in self.context.unknown
 
     def initialised(self, declaration: ir.Variable, place: Place) -> None:
         assigns = []

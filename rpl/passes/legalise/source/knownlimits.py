@@ -1,0 +1,88 @@
+"""Time limits of waits that a variable of the controller gives ($WAITTMOUT of TP): the seconds themselves, where every
+way to the wait has set the variable to the same number. A variable that nothing else reads is gone then.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+from rpl import ir
+from rpl.ir.walk import rewrite, walk
+from rpl.passes.fold import constant_number
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.heldvalues import Held, HeldValues, KnownData
+from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import Scope
+
+_CONTROLLERS = "$"  # how a variable of the controller itself begins; data of a program is set by hand, too
+
+
+@legalising(unless=lambda context: not context.foreign, sees=("WaitUntil",))
+def known_limits(program: ir.Program, context: Context) -> ir.Program:
+    """Only into other languages: their waits say the limit."""
+    waits = [one for one in walk(program) if isinstance(one, ir.WaitUntil) and one.timeout is not None]
+    names = {
+        node.id.lower()
+        for wait in waits
+        for node in walk(wait.timeout)
+        if isinstance(node, ir.Name) and node.id.startswith(_CONTROLLERS)
+    }
+    if not names:
+        return program
+    held = HeldValues.of(KnownData.of(program), names)
+
+    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
+        def body(statements: ir.Body) -> ir.Body:
+            return tuple(map(change, statements))
+
+        def change(statement: ir.Statement) -> ir.Statement:
+            done = rewrite_parts(statement, lambda expression: expression, body)
+            if not isinstance(statement, ir.WaitUntil) or not isinstance(done, ir.WaitUntil):
+                return done
+            seconds = _seconds(statement.timeout, held.before(statement), editor.scope)
+            return done if seconds is None else replace(done, timeout=seconds)
+
+        return edit_bodies(routine, body)
+
+    return _without_unread(edit_routines(program, context, work), names)
+
+
+def _seconds(limit: ir.Expression | None, held: Held, scope: Scope) -> ir.Expression | None:
+    """The limit as a number of seconds; None where it is one, or the run decides it."""
+    if limit is None or not any(isinstance(node, ir.Name) and node.id.lower() in held for node in walk(limit)):
+        return None
+    known = rewrite(limit, lambda node: held.get(node.id.lower(), node) if isinstance(node, ir.Name) else node)
+    found = constant_number(known, scope)
+    return None if found is None else ir.RealLiteral(found, origin=limit.origin)
+
+
+def _without_unread(program: ir.Program, names: set[str]) -> ir.Program:
+    """Without those of the variables that the program only sets to plain numbers."""
+    used, noted = Counter[str](), Counter[str]()
+    for node in walk(*program.modules):
+        match node:
+            case ir.Name(id=name):
+                used[name.lower()] += 1
+            case ir.Assign(target=ir.Name(id=name), value=ir.IntLiteral() | ir.RealLiteral()):
+                noted[name.lower()] += 1
+    gone = {name for name in names if used[name] == noted[name]}
+    if not gone:
+        return program
+
+    def change(node: object) -> object:
+        match node:
+            case ir.Assign(target=ir.Name(id=name), origin=origin) if name.lower() in gone:
+                return ir.Nothing(origin=origin) if origin.comments else ()
+        return node
+
+    modules = []
+    for module in program.modules:
+        kept = [one for one in module.declarations if not (isinstance(one, ir.Variable) and one.name.lower() in gone)]
+        modules.append(rewrite(replace(module, declarations=tuple(kept)), change))
+    return replace(program, modules=tuple(modules))
+
+
+__all__ = ["known_limits"]
