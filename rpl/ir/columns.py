@@ -33,24 +33,53 @@ _R = TypeVar("_R")
 class Stretch:
     """Moves first..end-1 of a run, for which one move stands. No node: a walk passes it by.
 
-    rows: of which moves of the run a column number has the numbers, ascending: those of the stretch, the ordinary ones
-    of the run, and the moves beside an ordinary one. A run of many stretches is so calculated about once."""
+    ordinary: moves of the run for which no stretch stands. checked: those of them that have to be what the stretch
+    gives for their numbers. odd: those that have answered a question otherwise than most. rows: of which moves of the
+    run a column number has the numbers, ascending: those of the stretch, those that are checked, and the moves beside
+    these, but none that is odd. A run of many stretches is so calculated about once. asked: which rows have to answer
+    alike; of those that stand beside nothing is written by this stretch."""
 
-    __slots__ = ("_apart", "_own", "choices", "end", "first", "ordinary", "origin", "rows", "run", "spellings")
+    __slots__ = (
+        "_apart",
+        "_own",
+        "asked",
+        "checked",
+        "choices",
+        "end",
+        "first",
+        "odd",
+        "ordinary",
+        "origin",
+        "rows",
+        "run",
+        "spellings",
+    )
 
     def __init__(
-        self, run: Run, first: int, end: int, ordinary: tuple[int, ...], spellings: list[tuple[str, ...]]
+        self,
+        run: Run,
+        first: int,
+        end: int,
+        ordinary: tuple[int, ...],
+        spellings: list[tuple[str, ...]],
+        checked: tuple[int, ...] | None = None,
+        odd: frozenset[int] = frozenset(),
     ) -> None:
-        """ordinary: moves of the run for which no stretch stands. spellings: of the numbers of each move of the run."""
+        """spellings: of the numbers of each move of the run. checked: without it all ordinary moves but the first and
+        the last."""
         import numpy as np
 
         columns = run.columns
-        beside = {one for at in ordinary for one in (at - 1, at, at + 1) if 0 <= one < len(run)}
-        apart = sorted(one for one in beside if not first <= one < end)
+        self.checked = ordinary[1:-1] if checked is None else checked
+        beside = {one for at in self.checked for one in (at - 1, at, at + 1)} | {first - 1, end}
+        apart = sorted(one for one in beside - odd if 0 <= one < len(run) and not first <= one < end)
         self._own = sum(one < first for one in apart)
         self.rows = np.array([*apart[: self._own], *range(first, end), *apart[self._own :]], dtype=np.int64)
-        self._apart = {int(at): row for row, at in enumerate(self.rows) if not first <= at < end}
+        self._apart = {at: row for row, at in enumerate(self.rows.tolist()) if not first <= at < end}
+        self.asked = np.zeros(len(self.rows), dtype=np.bool_)
+        self.asked[[*range(self._own, self._own + end - first), *map(self._apart.__getitem__, self.checked)]] = True
         self.run, self.first, self.end, self.ordinary, self.spellings = run, first, end, ordinary, spellings
+        self.odd = odd
         self.choices: list[Choice] = []
         self.origin = Origin(columns.source, int(columns.starts[first]), int(columns.ends[end - 1]))
 
@@ -61,6 +90,19 @@ class Stretch:
     def rows_of(self, moves: NDArray[np.int64]) -> NDArray[np.int64]:
         """`row` of each of these moves."""
         return self.rows.searchsorted(moves)
+
+    def alike(self, answers: NDArray[np.bool_]) -> bool:
+        """What each row answers. Raises LooksInsideError where they do not answer alike, with those that answer
+        otherwise than most."""
+        asked = answers[self.asked]
+        yes = int(asked.sum())
+        if 0 < yes < len(asked):
+            raise LooksInsideError(self, self.moves_where(answers if 2 * yes <= len(asked) else ~answers))
+        return yes > 0
+
+    def moves_where(self, answers: NDArray[np.bool_]) -> tuple[int, ...]:
+        """The moves of the run, of those that are asked, for which the answer is yes."""
+        return tuple(self.rows[answers & self.asked].tolist())
 
 
 class Choice:
@@ -73,11 +115,12 @@ class Choice:
 
 
 class LooksInsideError(Exception):
-    """A question that the rows of a stretch do not answer alike."""
+    """A question that the rows of a stretch do not answer alike. odd: the moves of the run that answer otherwise than
+    most, where that is known."""
 
-    def __init__(self, stretch: Stretch) -> None:
+    def __init__(self, stretch: Stretch, odd: tuple[int, ...] = ()) -> None:
         super().__init__("the moves of a run are told apart")
-        self.stretch = stretch
+        self.stretch, self.odd = stretch, odd
 
 
 class ColumnNumber:
@@ -137,12 +180,12 @@ class ColumnNumber:
 
     def __truediv__(self, other: object) -> float:
         divisor = self._operand(other)
-        if not (divisor if isinstance(divisor, float) else divisor.all()):
+        if divisor == 0.0 if isinstance(divisor, float) else self.stretch.alike(divisor == 0.0):
             raise LooksInsideError(self.stretch)
         return self._with(other, operator.truediv)
 
     def __rtruediv__(self, other: object) -> float:
-        if not self.values.all():
+        if self.stretch.alike(self.values == 0.0):
             raise LooksInsideError(self.stretch)
         return self._with(other, lambda one, given: operator.truediv(given, one))
 
@@ -158,44 +201,36 @@ class ColumnNumber:
 
     # ---- questions
 
-    def _alike(self, answers: NDArray[np.bool_]) -> bool:
-        first = bool(answers[0])
-        if (answers != first).any():
-            raise LooksInsideError(self.stretch)
-        return first
-
     def __eq__(self, other: object) -> bool:
         if other is None or isinstance(other, str | tuple):
             return False
-        return other is self or self._alike(self.values == self._operand(other))
+        return other is self or self.stretch.alike(self.values == self._operand(other))
 
     def __lt__(self, other: object) -> bool:
-        return self._alike(self.values < self._operand(other))
+        return self.stretch.alike(self.values < self._operand(other))
 
     def __le__(self, other: object) -> bool:
-        return self._alike(self.values <= self._operand(other))
+        return self.stretch.alike(self.values <= self._operand(other))
 
     def __gt__(self, other: object) -> bool:
-        return self._alike(self.values > self._operand(other))
+        return self.stretch.alike(self.values > self._operand(other))
 
     def __ge__(self, other: object) -> bool:
-        return self._alike(self.values >= self._operand(other))
+        return self.stretch.alike(self.values >= self._operand(other))
 
     def __bool__(self) -> bool:
-        return self._alike(self.values != 0.0)
+        return self.stretch.alike(self.values != 0.0)
 
     def _value(self) -> float:
         """What all rows have, to the sign of a zero."""
-        first = self.values[0]
-        if (self.values != first).any() or (first == 0.0 and self._signs_differ()):
-            raise LooksInsideError(self.stretch)
-        return float(first)
-
-    def _signs_differ(self) -> bool:
         import numpy as np
 
-        signs = np.signbit(self.values)
-        return bool((signs != signs[0]).any())
+        stretch, asked = self.stretch, self.values[self.stretch.asked]
+        first = float(asked[0])
+        if (asked != first).any():
+            first = float(np.sort(asked)[len(asked) // 2])  # what most have, if most have one
+            raise LooksInsideError(stretch, stretch.moves_where(self.values != first))
+        return first if first != 0.0 else -0.0 if stretch.alike(np.signbit(self.values)) else 0.0
 
     def __hash__(self) -> int:
         return hash(self._value())

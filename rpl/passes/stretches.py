@@ -13,19 +13,23 @@ that share just these numbers. Why nothing wrong can come out in silence:
   neighbour of a stretch as if it were that of each move, and which does something else with every second move.
 
 What is left are passes that count the moves of a program; they are in the property test.
+
+Where only a few moves of a run answer a question otherwise than the others, these and the moves beside them become
+ordinary ones (`parted`), and the others stay stretches; only what most moves answer is checked by then.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, cast
 
 from rpl import ir
 from rpl.diagnostics import Diagnostic
-from rpl.ir.columns import KEPT, ColumnNumber, LooksInsideError, Stretch, column_of
+from rpl.ir.columns import KEPT, Choice, ColumnNumber, LooksInsideError, Stretch, column_of
 from rpl.ir.rows import Cells, Rows
-from rpl.ir.runs import identical
+from rpl.ir.runs import Make, always, identical, maker_of
 from rpl.ir.walk import walk
 from rpl.passes.rewrite import changed, each, rewrite_parts, same
 from rpl.source import Origin
@@ -37,6 +41,10 @@ if TYPE_CHECKING:  # who translates no long program does not wait for it
 # A stretch of fewer moves costs more than it saves; and of a run there are not more of them.
 SHORTEST = 6
 _MOST = 100
+# One of so many moves may become an ordinary one because it answers otherwise than most.
+_ODD_IN = 12
+# Moves on either side of it that do so too: one that is beside it may be changed because of it, with statements around.
+_BESIDE = 2
 _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 _Place = tuple[int, int, int]
 
@@ -116,16 +124,10 @@ def _in_bodies(program: ir.Program, body: Callable[[ir.Body], ir.Body]) -> ir.Pr
 
 
 def _entered(run: ir.Run, found: list[Stretch]) -> list[ir.Statement]:
-    import numpy as np
-
     columns = run.columns
     spellings = [columns.spellings(at) for at in range(len(run))]
-    kinds = _kinds(spellings, columns.values)
-    ordinary = {0, 1, len(run) - 2, len(run) - 1}
-    for column in kinds[1:-1].T:
-        ordinary.update((np.unique(column, return_index=True)[1] + 1).tolist())
-    for at in (np.unique(_repeated(columns.values)[1:-1], return_index=True)[1] + 1).tolist():
-        ordinary.update((at - 1, at))
+    last = len(run) - 1
+    ordinary = {0, 1, last - 1, last, *_standing(run, spellings, range(1, last))}
     if len(run) < 2 * SHORTEST or len(ordinary) > _MOST:
         return list(run.moves())
     make = run.maker()
@@ -133,9 +135,7 @@ def _entered(run: ir.Run, found: list[Stretch]) -> list[ir.Statement]:
     def alone(first: int, end: int) -> list[ir.Statement]:
         return [make(spellings[at], columns.origin(at)) for at in range(first, end)]
 
-    standing = sorted(ordinary)
-    gaps = [(one + 1, other) for one, other in pairwise(standing) if other - one > SHORTEST]
-    known = tuple(sorted({*range(len(run))} - {at for gap in gaps for at in range(*gap)}))
+    gaps, known = _gaps(ordinary, len(run))
     types = [_type({row[at] for row in spellings}) for at in range(len(columns.cells))]
     done, last = list[ir.Statement](), 0
     for first, end in gaps:
@@ -143,6 +143,25 @@ def _entered(run: ir.Run, found: list[Stretch]) -> list[ir.Statement]:
         done += [*alone(last, first), _column_move(found[-1], types)]
         last = end
     return [*done, *alone(last, len(run))]
+
+
+def _standing(run: ir.Run, spellings: list[tuple[str, ...]], moves: Sequence[int]) -> set[int]:
+    """For each sign and each way of being written of a number the first of these moves that has it, and the first two
+    that share just these numbers."""
+    import numpy as np
+
+    values, standing = run.columns.values, set[int]()
+    for column in _kinds([spellings[at] for at in moves], values[moves]).T:
+        standing.update(moves[one] for one in np.unique(column, return_index=True)[1].tolist())
+    for one in np.unique(_repeated(values, moves), return_index=True)[1].tolist():
+        standing.update((moves[one] - 1, moves[one]))
+    return standing
+
+
+def _gaps(standing: Collection[int], count: int) -> tuple[list[tuple[int, int]], tuple[int, ...]]:
+    """Where enough moves for a stretch are between ordinary ones, and which of `count` moves are ordinary then."""
+    gaps = [(one + 1, other) for one, other in pairwise(sorted(standing)) if other - one > SHORTEST]
+    return gaps, tuple(sorted({*range(count)} - {at for gap in gaps for at in range(*gap)}))
 
 
 def _kinds(spellings: list[tuple[str, ...]], values: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -154,12 +173,12 @@ def _kinds(spellings: list[tuple[str, ...]], values: NDArray[np.float64]) -> NDA
     return kinds
 
 
-def _repeated(values: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Which numbers of a move are those of the move before, as bits: passes may compare a move with its neighbour."""
+def _repeated(values: NDArray[np.float64], moves: Sequence[int]) -> NDArray[np.int64]:
+    """Which numbers of each move are those of the one before, as bits: passes may compare a move with its neighbour."""
     import numpy as np
 
-    repeated = np.zeros(values.shape, dtype=np.int64)
-    repeated[1:] = values[1:] == values[:-1]
+    at = np.array(moves, dtype=np.int64)
+    repeated = (values[at] == values[at - 1]).astype("int64")
     bits: NDArray[np.int64] = repeated @ (1 << np.arange(values.shape[1], dtype=np.int64))
     return bits
 
@@ -187,6 +206,80 @@ def _column_move(stretch: Stretch, types: Sequence[type | None]) -> ir.Move:
     return run.with_cells(tuple(cells), stretch.origin)
 
 
+# ---- between the passes
+
+
+def parted(
+    program: ir.Program, whole: ir.Program, stretches: Sequence[Stretch], asked: LooksInsideError
+) -> tuple[ir.Program, tuple[Stretch, ...]] | None:
+    """The program with ordinary moves in place of those that answer a question otherwise than most, and the stretches
+    that it has then. whole: the same program with its stretches as Rows (`settled`). None: there are too many."""
+    run, odd = asked.stretch.run, asked.stretch.odd | frozenset(asked.odd)
+    if not asked.odd or len(odd) * _ODD_IN > len(run):
+        return None
+    unlike = {at for one in odd for at in range(one - _BESIDE, one + _BESIDE + 1)}
+    there = {_place(one.origin): one for one in walk(*whole.modules) if isinstance(one, ir.Rows)}
+    parts: dict[_Place, list[ir.Statement]] = {}
+    kept: list[Stretch] = []
+    for stretch in stretches:
+        if stretch.run is run and not unlike.isdisjoint((*stretch.checked, *range(stretch.first, stretch.end))):
+            parts[_place(stretch.origin)] = _pieces(there[_place(stretch.origin)], unlike, odd, kept)
+        else:
+            kept.append(stretch)
+
+    def body(statements: ir.Body) -> ir.Body:
+        return tuple(_spread(statements))
+
+    def _spread(statements: ir.Body) -> Iterator[ir.Statement]:
+        for one in statements:
+            if isinstance(one, ir.Move):
+                yield from parts.get(_place(one.origin), (one,))
+            else:
+                yield rewrite_parts(one, _kept, body) if isinstance(one, _BLOCKS) else one
+
+    return _in_bodies(program, body), tuple(kept)
+
+
+def _pieces(rows: Rows, unlike: set[int], odd: frozenset[int], kept: list[Stretch]) -> list[ir.Statement]:
+    """Ordinary moves and stretches, which are put with the `kept`, in place of rows."""
+    old = rows.cells.stretch
+    run, calculated = old.run, {*old.rows.tolist()} - odd
+    left = [at for at in (*old.checked, *range(old.first, old.end)) if at not in unlike]
+    standing = {at for at in _standing(run, old.spellings, left) if old.first <= at < old.end} if left else set[int]()
+    standing = {*old.checked, *standing} - unlike
+    checked = tuple(sorted(at for at in standing if {at - 1, at, at + 1} <= calculated))
+    gaps, ordinary = _gaps({*old.ordinary, *standing, *unlike} & {*range(len(run))}, len(run))
+    done, last = list[ir.Statement](), old.first
+    for first, end in gaps:
+        if old.first <= first and end <= old.end:
+            kept.append(Stretch(run, first, end, ordinary, old.spellings, checked, odd))
+            done += [*rows.these(range(last, first)), _part(rows, kept[-1])]
+            last = end
+    return [*done, *rows.these(range(last, old.end))]
+
+
+def _part(rows: Rows, part: Stretch) -> ir.Move:
+    """The move that stands for some moves of a stretch."""
+    sample, old = rows.sample, rows.cells.stretch
+    some = old.rows_of(part.rows)
+
+    def number(literal: ir.Expression) -> ir.Expression:
+        if not isinstance(literal, ir.IntLiteral | ir.RealLiteral):
+            return literal
+        column = column_of(literal.value)
+        if column is None:
+            return literal
+        value = ColumnNumber(part, column.values[some], column.kind, column.shifted)
+        if isinstance(literal, ir.IntLiteral):
+            return replace(literal, value=cast(int, value))
+        return replace(literal, value=cast(float, value))
+
+    part.choices = [Choice(one.answers[some], tuple(map(number, one.options))) for one in old.choices]
+    makes: dict[int, Make[None]] = {key: always(number(cell.literal)) for key, cell in rows.cells.by_identity.items()}
+    make = maker_of(sample, makes, sample.origin)
+    return cast(ir.Move, make(None, part.origin)) if make is not None else sample
+
+
 # ---- behind the passes
 
 
@@ -204,7 +297,7 @@ def _rows(stretch: Stretch, statements: ir.Body, at: int, moves: dict[_Place, ir
         for one, origin in zip(around, beside, strict=True)
     ):
         raise LooksInsideError(stretch)
-    numbers = stretch.ordinary[1:-1]
+    numbers = stretch.checked
     alone = [moves.get(_place(columns.origin(one))) for one in numbers]
     for signed in (False, True):
         rows = Rows(sample, Cells(stretch, sample, signed), origin=sample.origin)

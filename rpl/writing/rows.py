@@ -2,7 +2,7 @@
 
 The line is printed with the column numbers themselves, so that a printer which asks for their values (is this a zone
 that has a name?) is told that the moves differ; then they are printed one by one, and so they are where a mark is
-missing or where one of the run's ordinary moves comes out otherwise.
+missing or where one of the moves that are checked comes out otherwise.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ def mark_of(literal: ir.IntLiteral | ir.RealLiteral) -> str | None:
 
 def lines_of_rows(rows: ir.Rows, print: Print, number: NumberText) -> list[str]:
     """The lines of all moves. number: as numbers are written in the places where the rows have theirs."""
-    ordinary = rows.cells.stretch.ordinary[1:-1]
+    checked = rows.cells.stretch.checked
     texts: dict[int, str] = {}
     for group, moves in rows.groups(rows.numbers()):
         texts.update(zip(moves, _filled(group, moves, print, number), strict=True))
-    for group, moves in rows.groups(ordinary):
+    for group, moves in rows.groups(checked):
         if any(
             text != "\n".join(print(move))
             for text, move in zip(_filled(group, moves, print, number), group.these(moves), strict=True)

@@ -85,6 +85,6 @@ def test_a_row_and_the_rows_beside_it() -> None:
     assert in_row(in_next_row(column(VALUES), -1), 1) == 1.5
     assert in_row(in_next_row(column(VALUES), 1), 1) == 0.0
     assert in_row(in_next_row(column(VALUES), -1), 0) == 2.5
-    assert in_row(column(VALUES), 20) == 0.0
-    assert in_row(in_next_row(column(VALUES), -1), 20) == 2.5
-    assert in_row(in_next_row(column(VALUES), 1), 20) == 3.25
+    assert in_row(column(VALUES), 20) == 3.25
+    assert in_row(in_next_row(column(VALUES), -1), 20) == 0.0
+    assert in_row(in_next_row(column(VALUES), 1), 20) == 1.5

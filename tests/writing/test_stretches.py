@@ -169,3 +169,18 @@ def test_zones_of_some_moves_have_names_of_their_own() -> None:
     assert count > 60
     assert {b"z5", b"z5Turning"} <= {line.split(b",")[-2] for line in found[0][0][1].splitlines() if b"MoveL" in line}
     assert found == written(krl([rows], ""), "rapid", whole=True)[0]
+
+
+@pytest.mark.parametrize("robot", [None, ROBOT])
+def test_a_few_odd_moves_leave_the_others_in_rows(robot: str | None) -> None:
+    """Two short ways on which the tool turns far (the controller reduces their zones), and one other posture."""
+    rows = Asked(3, 300, 0.0, ()).rows()
+    for at, row in enumerate(rows):
+        row[:3] = f"{420 + at % 40 * 3.5:.3f}", f"{-100 + at // 40 * 7.5:.3f}", f"{400 + at % 7 * 0.5:.3f}"
+        row[3:] = "6.0", "0.0", "501.0"
+    for at in (80, 200):
+        rows[at][:3], rows[at][5] = [f"{float(one) + 0.3:.3f}" for one in rows[at - 1][:3]], "900.0"
+    rows[140][3] = "7.0"
+    found, count = written(rapid([rows], ""), "tp", False, robot)
+    assert 240 < count < 300
+    assert found == written(rapid([rows], ""), "tp", True, robot)[0]

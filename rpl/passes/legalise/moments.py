@@ -1,5 +1,5 @@
 """What stood in front of a pass while stretches stand for the moves of runs: from there it can be done again with all
-moves, when a pass looks inside of a stretch.
+moves, or with a few more of them, when a pass looks inside of a stretch.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.columns import LooksInsideError, Stretch
 from rpl.passes.expanded import expanded
-from rpl.passes.stretches import settled
+from rpl.passes.stretches import parted, settled
 
 
 class Known(Protocol):
@@ -59,9 +59,10 @@ def note(moments: list[Moment], at: int, program: ir.Program, context: Known) ->
     moments.append(Moment(at, program, len(context.diagnostics), found))
 
 
-def moved_back(moments: list[Moment], context: Known) -> tuple[int, ir.Program]:
-    """The last moment in which each stretch is what it has to be: its pass, and its program with all moves. The first
-    one is, as no pass has run."""
+def moved_back(moments: list[Moment], context: Known, asked: LooksInsideError, part: bool) -> tuple[int, ir.Program]:
+    """The last moment in which each stretch is what it has to be: its pass, and its program. There the moves that
+    answer otherwise than most are ordinary ones, or all where they are many, or `part` is not said. The first moment is
+    one, as no pass has run."""
     while True:
         moment = moments.pop()
         moment.restore(context)
@@ -71,5 +72,6 @@ def moved_back(moments: list[Moment], context: Known) -> tuple[int, ir.Program]:
             if not moments:
                 raise
             continue
-        context.stretches = ()
-        return moment.at, expanded(whole)
+        found = parted(moment.program, whole, context.stretches, asked) if part else None
+        program, context.stretches = found or (expanded(whole), ())
+        return moment.at, program

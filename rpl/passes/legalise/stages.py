@@ -134,10 +134,15 @@ def _among(stage: Stage, own: tuple[Placed, ...]) -> tuple[Pass, ...]:
     return tuple(whole)
 
 
+# How often moves of a run become ordinary ones before all do.
+_MOST_PARTED = 40
+
+
 def run_passes(passes: Iterable[Pass], program: ir.Program, context: Context) -> ir.Program:
     """The program behind the passes, in their order; those that have nothing to do are not called. Where one looks
-    inside of a stretch of moves, it goes on with all moves behind the last pass that has left the stretches whole."""
-    kinds, moments = Kinds(), list[Moment]()
+    inside of a stretch of moves, it goes on behind the last pass that has left the stretches whole: with those moves as
+    ordinary ones that are told apart, or with all where these are many."""
+    kinds, moments, parted = Kinds(), list[Moment](), 0
     held, of = frozenset[str](), None
     todo, at = tuple(passes), 0
     while True:
@@ -155,8 +160,9 @@ def run_passes(passes: Iterable[Pass], program: ir.Program, context: Context) ->
                 program = one.run(program, context)
             settled(program, context.stretches, context.diagnostics.items[context.before :])
             return program
-        except LooksInsideError:
-            at, program = moved_back(moments, context)
+        except LooksInsideError as asked:
+            parted += 1
+            at, program = moved_back(moments, context, asked, part=parted <= _MOST_PARTED)
 
 
 def kinds_of(node: object) -> tuple[str, ...]:
