@@ -116,7 +116,9 @@ LISTS = st.builds(
 Written = tuple[list[tuple[str, bytes]], list[tuple[str, int, int, str]], object, object]
 
 
-def written(source: Source, target: str, whole: bool, robot: str | None = None) -> tuple[Written, int]:
+def written(
+    source: Source, target: str, whole: bool, robot: str | None = None, to_robot: str | None = None
+) -> tuple[Written, int]:
     """What comes of it, by moves or by stretches, and how many moves were written in stretches."""
     diagnostics = Diagnostics()
     with pytest.MonkeyPatch.context() as patch:
@@ -125,7 +127,7 @@ def written(source: Source, target: str, whole: bool, robot: str | None = None) 
         if whole:
             patch.setattr(translation, "with_stretches", lambda program, one_by_one: (expanded(program), ()))
         read = read_program([source])
-        done = translation.translate_program(read, target, robot, diagnostics=diagnostics)
+        done = translation.translate_program(read, target, robot, to_robot, diagnostics=diagnostics)
     told = [(item.code.name, item.origin.start, item.origin.end, item.message) for item in diagnostics]
     files = [(file.path, file.data) for file in done.files]
     count = sum(len(node) for node in walk(*done.written.modules) if isinstance(node, ir.Rows))
@@ -184,3 +186,19 @@ def test_a_few_odd_moves_leave_the_others_in_rows(robot: str | None) -> None:
     found, count = written(rapid([rows], ""), "tp", False, robot)
     assert 240 < count < 300
     assert found == written(rapid([rows], ""), "tp", True, robot)[0]
+
+
+@pytest.mark.parametrize(
+    ("write", "target", "to_robot"), [(krl, "tp", "fanuc_m20ia"), (krl_flags, "rapid", "abb_irb120_3_58")]
+)
+def test_rows_go_to_another_arm(write: Write, target: str, to_robot: str) -> None:
+    """Also where a few moves are not reached, or in another posture only."""
+    rows = Asked(7, 120, 20.0, ()).rows()
+    for at, row in enumerate(rows if write is krl else []):
+        row[:3] = f"{450 + at % 9 * 12.5:.3f}", f"{-80 + at // 9 * 11.5:.3f}", f"{400 + at % 5 * 9.5:.3f}"
+        row[3:] = f"{at * 0.75:.3f}", f"{80 + at % 7 * 1.5:.3f}", f"{-at * 0.5:.3f}"
+    rows[50][0] = "2500.5" if write is krl else rows[50][0]
+    source = write([rows[:60], rows[60:]], "")
+    found, count = written(source, target, False, ROBOT, to_robot)
+    assert count > 40 or write is krl_flags
+    assert found == written(source, target, True, ROBOT, to_robot)[0]

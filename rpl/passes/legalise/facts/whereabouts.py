@@ -55,10 +55,18 @@ NOWHERE_KNOWN = Stand()
 class Whereabouts:
     """`ways`: the way of each move by identity, where something of it is known. `starts`, `ends`: where the robot
     stands before each move and behind it. `converted`: the flags of places are the target's already. `settled`: places
-    that the beginning of the program sets once and for all are known, too."""
+    that the beginning of the program sets once and for all are known, too. Without `postures` no joints are looked for
+    at places, and no ways."""
 
-    def __init__(self, program: ir.Program, context: Context, converted: bool = False, settled: bool = False) -> None:
-        self.converted = converted
+    def __init__(
+        self,
+        program: ir.Program,
+        context: Context,
+        converted: bool = False,
+        settled: bool = False,
+        postures: bool = True,
+    ) -> None:
+        self.converted, self.postures = converted, postures
         self.ways: dict[int, Way] = {}
         self.starts: dict[int, Stand] = {}
         self.ends: dict[int, Stand] = {}
@@ -117,7 +125,8 @@ class Whereabouts:
 
     def moved(self, move: ir.Move, stand: Stand) -> Stand:
         end = self.end(move, stand)
-        self.ways[id(move)] = self.way(move, stand, end)
+        if self.postures:
+            self.ways[id(move)] = self.way(move, stand, end)
         self.starts[id(move)], self.ends[id(move)] = stand, end
         return end
 
@@ -146,7 +155,7 @@ class Whereabouts:
         return Stand(joints, flange, (move.tool, move.frame, pose))
 
     def nearest(self, flange: rigid.Pose | None, near: Joints) -> Joints | None:
-        if self.arm is None or flange is None:
+        if self.arm is None or flange is None or not self.postures:
             return None
         found = self.arm.nearest(array(flange.matrix), array(near))
         return None if found is None else tuple(float(one) for one in found)
@@ -184,7 +193,7 @@ class Whereabouts:
     def solved(self, move: ir.Move, goal: Value | None, flange: rigid.Pose | None, stand: Stand) -> Joints | None:
         """The joints at a place: those that its flags and the controller's rule choose, for paths the ones nearest to
         the last."""
-        if self.arm is None or flange is None:
+        if self.arm is None or flange is None or not self.postures:
             return None
         if self.converted and move.kind == "joint" and isinstance(goal, Target):
             return None  # what the source said about the posture is gone

@@ -24,9 +24,12 @@ from rpl.passes.legalise.places.postures.flagwrites import FlagFlow, FlagValues,
 from rpl.passes.legalise.places.postures.givenjoints import joint_values, with_joints
 from rpl.passes.legalise.places.postures.impliedflags import Known, implied_flags
 from rpl.passes.legalise.places.postures.rowpostures import (
+    all_there,
     degrees_in_rows,
     flags_in_rows,
+    flanges_in_rows,
     joints_in_rows,
+    joints_on_other_arm,
     stretch_of_matrix,
 )
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -462,8 +465,12 @@ class _Configurations(Rewriter):
         if notation is None:
             return _Refused("the source language writes no configuration")
         flags = {name: value for name, value in target.flags if name in notation.fields}
-        if had and not self.other_arm and (stretch := stretch_of_matrix(flange.matrix)) is not None:
-            return self.in_rows(stretch, joints_in_rows(stretch, notation, self.arm, flange.matrix, flags, use.joint))
+        if (had or self.other_arm) and (stretch := stretch_of_matrix(flange.matrix)) is not None:
+            flanges = flanges_in_rows(stretch, flange.matrix)
+            found = joints_in_rows(stretch, notation, self.arm, flanges, flags, use.joint, had)
+            if self.other_arm:
+                found = joints_on_other_arm(stretch, self.arm, self.to_arm, flanges, found, self.alone)
+            return self.in_rows(stretch, all_there(stretch, self.to_arm, found))
         matrix = array(flange.matrix)
         selection = notation.select(_any(self.arm), matrix, flags, None if had else self.arm.home)
         joints = selection.joints
@@ -522,6 +529,13 @@ class _Configurations(Rewriter):
         if rank[0] and best is not None and joints is not None:
             self.changed = changed_posture(self.arm, array(joints), arm, best) or self.changed
         return best
+
+    def alone(self, flange: Any, joints: Any) -> tuple[Any, bool]:
+        """`on_other_arm` for one of many flange poses, and whether the posture is another one."""
+        self.changed = None
+        found = self.on_other_arm(flange, joints)
+        changed, self.changed = self.changed is not None, None
+        return found, changed
 
     def tell_changed(self, what: str, expression: ir.Expression) -> None:
         assert self.to_arm is not None and self.changed is not None  # only where it was changed for another arm

@@ -11,11 +11,14 @@ from typing import Any
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
+from rpl.ir.columns import LooksInsideError
 from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context
 from rpl.passes.legalise.facts.whereabouts import Whereabouts
 from rpl.passes.legalise.places.postures.freepostures import FREE
+from rpl.passes.legalise.places.postures.rowpostures import flanges_in_rows, stretch_of_matrix
+from rpl.passes.legalise.places.postures.unreachable import reached
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rigid import Pose
@@ -37,7 +40,7 @@ def places_on_other_arm(program: ir.Program, context: Context) -> ir.Program:
     arm, other = context.robot, context.to_robot
     if arm is None or other is None or other.name == arm.name:
         return program
-    stands = Whereabouts(_neutral(program, context), replace(context, to_robot=None))
+    stands = Whereabouts(_neutral(program, context), replace(context, to_robot=None), postures=False)
     places = _Places(context, other)
     for module, routine in stands.scopes.routines():
         scope = stands.scopes.routine(module, routine)
@@ -63,14 +66,21 @@ class _Places:
         self.found: dict[Pose, str] = {}  # why not; empty: it is reached
 
     def move(self, move: ir.Move, goal: Value | None, flange: Pose | None, scope: Scope) -> None:
-        if flange is not None:
+        stretch = None if flange is None else stretch_of_matrix(flange.matrix)
+        flanges: Any = None
+        if flange is not None and stretch is not None:
+            flanges, first = flanges_in_rows(stretch, flange.matrix), stretch.row(stretch.first)
+            self.context.flanges += flanges[first : first + stretch.end - stretch.first].tolist()
+        elif flange is not None:
             self.context.flanges.append(flange.matrix)
         type = type_of(move.target, scope)
         written = isinstance(goal, Target) and any(value is not None for _, value in goal.flags)
         if isinstance(type, ir.JointsType) or (written and isinstance(move.target, ir.Name | ir.Index | ir.Aggregate)):
             return  # the conversion of what is written reports these itself
         report = self.context.diagnostics.report
-        reason = None if flange is None else self.why_not(flange)
+        if stretch is not None and (missed := stretch.moves_where(~reached(self.arm, flanges))):
+            raise LooksInsideError(stretch, missed)
+        reason = None if flange is None else "" if stretch is not None else self.why_not(flange)
         if reason is None:
             report(NOT_LOOKED_AT, move.origin, arm=self.arm.name)
         elif reason:

@@ -140,7 +140,7 @@ def _tell_shift(arm: Any, context: Context, origin: Origin) -> None:
     import numpy as np  # most translations ask nothing of the arm
 
     flanges = np.array(list({tuple(map(tuple, one)): one for one in context.flanges}.values())[:_MOST_PLACES])
-    missed = ~_reached(arm, flanges)
+    missed = ~reached(arm, flanges)
     if not missed.any():
         return
     counts = {"arm": arm.name, "count": len(flanges), "missed": int(missed.sum())}
@@ -148,21 +148,21 @@ def _tell_shift(arm: Any, context: Context, origin: Origin) -> None:
     for shift in sorted(product(steps, repeat=3), key=lambda one: (sum(each * each for each in one), one)):
         moved = flanges.copy()
         moved[:, :3, 3] -= shift
-        if _reached(arm, moved[missed]).all() and _reached(arm, moved).all():
+        if reached(arm, moved[missed]).all() and reached(arm, moved).all():
             way = ", ".join(f"{name} {each:+g}" for name, each in zip("xyz", shift, strict=True))
             context.diagnostics.report(SHIFT, origin, way=f"its foot moved by {way} mm", **counts)
             break
     for longer in np.arange(_TOOL_STEP_MM, _LONGEST_TOOL_MM + 1.0, _TOOL_STEP_MM):
         moved = flanges.copy()
         moved[:, :3, 3] -= longer * moved[:, :3, 2]
-        if _reached(arm, moved[missed]).all() and _reached(arm, moved).all():
+        if reached(arm, moved[missed]).all() and reached(arm, moved).all():
             context.diagnostics.report(
                 SHIFT, origin, way=f"a tool {longer:g} mm longer along the flange's axis", **counts
             )
             break
 
 
-def _reached(arm: Any, flanges: Any) -> Any:
+def reached(arm: Any, flanges: Any) -> Any:
     """Which flanges (k, 4, 4) the arm comes to within the limits of its axes."""
     import numpy as np
 
@@ -176,4 +176,4 @@ def _reached(arm: Any, flanges: Any) -> Any:
     return (inside.all(axis=2) & found.valid).any(axis=1)
 
 
-__all__ = ["unreachable_moves"]
+__all__ = ["reached", "unreachable_moves"]
