@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.columns import Stretch, as_float
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, array, rules_of
@@ -32,6 +32,7 @@ from rpl.passes.legalise.places.postures.rowpostures import (
     joints_on_other_arm,
     stretch_of_matrix,
 )
+from rpl.passes.legalise.places.postures.together import Asked, Found, asked_for, found_together
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -114,6 +115,7 @@ class _Configurations(Rewriter):
         self.told: set[tuple[int, int]] = set()  # source and line where single axes have been told
         self.around = NOWHERE  # the declaration or statement that is looked at now
         self.unturned = ""  # why the target looked at now has flags, but none of its turns
+        self.together: dict[Asked, Found] = trial.together if trial else {}
         self.results: dict[int, dict[str, int] | _Refused] = trial.results if trial else {}
         self.loose: set[int] = trial.loose if trial else set()  # variables whose flags the program sets one by one
         self.flags: FlagFlow | None = trial.flags if trial else None
@@ -128,6 +130,9 @@ class _Configurations(Rewriter):
     # ---- program
 
     def program(self) -> ir.Program:
+        if self.trial is None and self.arm is not None:
+            other = self.to_arm if self.other_arm else None
+            self.together = found_together(self.all_asked(), self.arm, other)
         done = super().program()
         checks = self.checks()
         if not checks:
@@ -144,6 +149,31 @@ class _Configurations(Rewriter):
             for module in done.modules
         )
         return replace(done, modules=modules)
+
+    def all_asked(self) -> Iterator[tuple[Notation, Asked]]:
+        """What `for_use` will ask for."""
+        for module in self.source.modules:
+            self.enter(self.scopes.module(module))
+            yield from self.asked_in(module.declarations)
+            for routine in module.routines:
+                self.enter(self.scopes.routine(module, routine))
+                yield from self.asked_in((*routine.declarations, *bodies(routine)))
+
+    def asked_in(self, nodes: tuple[object, ...]) -> Iterator[tuple[Notation, Asked]]:
+        for node in walk(*nodes):
+            uses = self.uses.found.get(id(node)) if isinstance(node, ir.Aggregate) else None
+            type = self.type_of(node) if uses and isinstance(node, ir.Aggregate) and _may_be_point(node) else None
+            if not isinstance(type, ir.TargetType) or not isinstance(node, ir.Aggregate) or not uses:
+                continue
+            notation, value = _notation(type.notation), constant(node, self.scope, None)
+            had = self.has_flags(type, self.named(node, type))
+            if notation is None or not isinstance(value, Target) or not (had or self.other_arm):
+                continue
+            for use in uses:
+                place = moved(use.moved[0], value, list(use.moved[1])) if use.moved else value
+                flange = use.frames.flange(place.pose) if isinstance(place, Target) else None
+                if flange is not None:
+                    yield notation, asked_for(notation, flange, _flags_of(value, notation), use.joint, had)
 
     def checks(self) -> tuple[ir.Statement, ...]:
         """Switch off the checks of the target's controller that the source's did not make."""
@@ -366,7 +396,7 @@ class _Configurations(Rewriter):
     def target(self, expression: ir.Aggregate, type: ir.TargetType) -> ir.Expression:
         flags = set(registry.dialect(type.notation).notation_fields)
         given = self.named(expression, type)
-        had = bool(flags & set(given)) or "conf" in given
+        had = self.has_flags(type, given)
         self.side_by_side = not {"conf", "trans"} & set(given)
         entries = [(n, self.expression(v)) for n, v in given.items() if n not in flags and n != "conf"]
         word = type_word(replace(type, notation=self.target_notation))
@@ -382,6 +412,9 @@ class _Configurations(Rewriter):
             self.refused(found, expression, had)
             return replace(done, entries=tuple(entries) if self.flat else self.with_flags(entries, None))
         return replace(done, entries=self.with_flags(entries, found))
+
+    def has_flags(self, type: ir.TargetType, given: dict[str, ir.Expression]) -> bool:
+        return "conf" in given or not given.keys().isdisjoint(registry.dialect(type.notation).notation_fields)
 
     def named(self, expression: ir.Aggregate, type: ir.Type) -> dict[str, ir.Expression]:
         names = component_names(type, self.scope)
@@ -464,7 +497,7 @@ class _Configurations(Rewriter):
         notation = _notation(target.type.notation)
         if notation is None:
             return _Refused("the source language writes no configuration")
-        flags = {name: value for name, value in target.flags if name in notation.fields}
+        flags = _flags_of(target, notation)
         if (had or self.other_arm) and (stretch := stretch_of_matrix(flange.matrix)) is not None:
             flanges = flanges_in_rows(stretch, flange.matrix)
             found = joints_in_rows(stretch, notation, self.arm, flanges, flags, use.joint, had)
@@ -472,19 +505,24 @@ class _Configurations(Rewriter):
                 found = joints_on_other_arm(stretch, self.arm, self.to_arm, flanges, found, self.alone)
             return self.in_rows(stretch, all_there(stretch, self.to_arm, found))
         matrix = array(flange.matrix)
-        selection = notation.select(_any(self.arm), matrix, flags, None if had else self.arm.home)
-        joints = selection.joints
+        known, reason = self.together.get(asked_for(notation, flange, flags, use.joint, had)), ""
+        if known is not None:
+            joints = known.joints
+        else:
+            selection = notation.select(_any(self.arm), matrix, flags, None if had else self.arm.home)
+            joints, reason = selection.joints, selection.reason
         if joints is None and not use.joint:
             joints = self.arm.nearest(matrix, self.arm.home)
         wrong = joints is None and had and use.joint and use.moved is None and self.checked
         if wrong and self.arm.nearest(matrix, self.arm.home) is not None:  # there, but not with these flags
-            return _Refused(selection.reason, fatal=True)
+            return _Refused(reason, fatal=True)
         if self.other_arm:
-            joints = self.on_other_arm(matrix, joints)
+            there = None if known is None else known.there
+            joints = self.on_other_arm(matrix, joints) if there is None else there
             if joints is None:
                 return _Refused(self.why_not(matrix), fatal=True)
         if joints is None:
-            return _Refused(selection.reason)
+            return _Refused(reason)
         if self.near:
             return {name: round(round(float(value), 6)) for name, value in zip(_AXES, joints, strict=False)}
         wanted = _notation(self.target_notation)
@@ -594,6 +632,10 @@ def _is_taught(expression: ir.Aggregate) -> bool:
         return []
 
     return any(number not in (0.0, 1.0) and abs(number) < 9e8 for number in numbers(expression))
+
+
+def _flags_of(target: Target, notation: Notation) -> dict[str, int]:
+    return {name: value for name, value in target.flags if name in notation.fields}
 
 
 def _notation(name: str) -> Notation | None:

@@ -88,7 +88,7 @@ def joints_on_other_arm(
     told, whole, first = np.zeros(len(flanges), dtype=np.bool_), list[Any](), 0
     for some in joints:
         poses = flanges[first : first + len(some)]
-        found, sure = _nearest_by_name(arm, other, poses, some)
+        found, sure = nearest_by_name(arm, other, poses, some)
         for at in np.flatnonzero(~sure & stretch.asked[first : first + len(some)]).tolist():
             one, changed = alone(poses[at], None if np.isnan(some[at, 0]) else some[at])
             told[first + at] = one is None or changed
@@ -100,7 +100,7 @@ def joints_on_other_arm(
     yield from whole
 
 
-def _nearest_by_name(arm: Any, other: Any, flanges: Any, joints: Any) -> tuple[Any, Any]:
+def nearest_by_name(arm: Any, other: Any, flanges: Any, joints: Any) -> tuple[Any, Any]:
     """Joints (k, m) of the other arm, and (k,) which of them are surely what is found for one pose alone: in a posture
     of the same names where this arm has one, and nothing else is as near but for rounding."""
     import numpy as np
