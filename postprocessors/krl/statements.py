@@ -85,7 +85,7 @@ class Printer(StatementPrinter[str]):
         self.depth += 1
         at = 0
         while at < len(body):
-            at += self.structure(body[at:]) or self.one(body[at])
+            at += self.structure(body[at : at + _LARGEST_STRUCTURE]) or self.one(body[at])
         self.depth -= 1
 
     def one(self, statement: ir.Statement) -> int:
@@ -94,11 +94,11 @@ class Printer(StatementPrinter[str]):
 
     def structure(self, body: ir.Body) -> int:
         """`$VEL=f()` stands for an assignment to each component, `BAS(#VEL_PTP,n)` for one to each axis: written as the
-        one it was. Counts the statements."""
+        one it was. Counts the statements. body: as many as the largest structure has, or all that are left."""
         first = body[0]
         if not (isinstance(first, ir.Assign) and isinstance(first.target, ir.System)):
             return 0
-        together = takewhile(lambda one: isinstance(one, ir.Assign), body[:_LARGEST_STRUCTURE])
+        together = takewhile(lambda one: isinstance(one, ir.Assign), body)
         pairs = [(one.target, one.value) for one in together if isinstance(one, ir.Assign)]
         whole = whole_structure(pairs)
         try:
