@@ -247,9 +247,9 @@ class _Uses:
                 self.use(right, _PLACE)
             case ir.Builtin(function=name, arguments=arguments) if name in FUNCTIONS:
                 kinds = FUNCTIONS[name].parameters.replace("?", "")
-                for kind, argument in zip(kinds, arguments, strict=False):
-                    if argument is not None:
-                        self.use(argument, _LETTERS.get(kind))
+                for letter, operand in zip(kinds, arguments, strict=False):
+                    if operand is not None:
+                        self.use(operand, _LETTERS.get(letter))
             case ir.Index(base=base, indices=indices):
                 self.refuse(base)
                 for index in indices:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from typing import TypeGuard
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -43,7 +44,7 @@ def unknown_pulses(program: ir.Program, context: Context) -> ir.Program:
     places = _places(program)
     modules = []
     for module in program.modules:
-        given = [
+        given: list[ir.Declaration] = [
             _unknown(one, one.name, module.dialect, places) if _is_counted(one) else one for one in module.declarations
         ]
         done = []
@@ -66,7 +67,7 @@ def unknown_pulses(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=tuple(modules))
 
 
-def _is_counted(one: object) -> bool:
+def _is_counted(one: object) -> TypeGuard[ir.Variable]:
     match one:
         case ir.Variable(initial=ir.Builtin(function="joints_from_pulses", arguments=pulses)):
             return any(count_of(each) not in (0.0, None) for each in pulses)
