@@ -57,6 +57,19 @@ def test_a_handler_that_goes_on_in_the_routine(end: str) -> None:
     assert bases(lines) == [None if end == "RETRY" else 5.0, None]
 
 
+@pytest.mark.parametrize("change", ["raised(i)", 'ASK "How many?" INTO i KIND number', "i = 7"])
+def test_a_variable_that_a_called_routine_changes(change: str) -> None:
+    frame = "$base = {x: i, y: 0, z: 0, a: 0, b: 0, c: 0}"
+    more = f"PROCEDURE other()\n{change}\nEND PROCEDURE\nPROCEDURE raised(REFERENCE n: INT)\nn = n + 4\nEND PROCEDURE\n"
+    found = bases(f"i = 3\n{frame}\n{MOVE}\nother()\n{frame}\n{MOVE}", more)
+    assert found == [3.0, 7.0 if change == "i = 7" else None]
+
+
+def test_a_choice_of_frames_by_what_a_called_wait_tells() -> None:
+    more = "PROCEDURE other()\nWAIT UNTIL di[1] TIMEOUT 1 s FLAG on\nEND PROCEDURE\n"
+    assert bases(f"on = FALSE\n{base(5)}\nother()\nIF on THEN\n{base(6)}\nEND IF\n{MOVE}", more) == [None]
+
+
 @pytest.mark.parametrize("arming", ["DECLARE INTERRUPT 3 WHEN on DO other()", "TRAP ERRORS WITH other"])
 def test_a_reaction_that_sets_the_frame(arming: str) -> None:
     more = f"PROCEDURE other()\n{base(6)}\nEND PROCEDURE\n"

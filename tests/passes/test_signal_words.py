@@ -35,3 +35,40 @@ def test_a_number_that_is_set_in_the_run_is_a_name_as_well(target: str) -> None:
     journey = there_and_back({"job.v2": text}, "vplus", target)
     assert "lamp_on:=" not in journey.text and "lamp_on=3" not in journey.text
     assert journey.prove("job").equal
+
+
+PASSED = """def job():
+  DOOR = 0
+  LAMP = 2
+  def expect(number):
+    if get_standard_digital_in(number):
+      textmsg("come")
+    end
+  end
+  def shine(number, seconds):
+    set_standard_digital_out(number, True)
+    sleep(seconds)
+  end
+  shine(LAMP, 0.2)
+  shine(LAMP, 0.4)
+  expect(DOOR)
+  {more}
+end
+"""
+
+
+@pytest.mark.parametrize("more", ["", "shine(3, 0.1)", "set_standard_digital_out(LAMP, False)"])
+def test_a_parameter_that_says_the_number_of_a_signal_is_a_signal(more: str) -> None:
+    """No routine over all signals in reach; constants that are no variables are passed as well."""
+    journey = there_and_back({"job.script": PASSED.format(more=more)}, "urscript", "rapid")
+    assert "VAR signaldi number" in journey.text and "VAR signaldo number" in journey.text
+    assert "expect DOOR;" in journey.text and "shine LAMP,0.2;" in journey.text
+    assert "rpl_" not in journey.text
+    assert journey.prove("job").equal
+
+
+@pytest.mark.parametrize("more", ["n = 2\n  shine(n + 1, 0.1)\n  n = 3", "textmsg(to_str(LAMP))\n  shine(LAMP, 0.1)"])
+def test_a_number_that_is_worked_out_stays_one(more: str) -> None:
+    journey = there_and_back({"job.script": PASSED.format(more=more)}, "urscript", "rapid")
+    assert ("VAR signaldo number" in journey.text) == ("n = 2" not in more)
+    assert journey.prove("job").equal

@@ -7,7 +7,7 @@ calls, as far as they are constant. A target reaches moves through variables, ar
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -18,13 +18,21 @@ from rpl.passes.fold import constant, element_key
 from rpl.passes.legalise.context import ProgramScope
 from rpl.passes.legalise.facts.entries import routines_beside
 from rpl.passes.legalise.facts.forward import Forward, beside, reactions, started
-from rpl.passes.legalise.facts.usage import assigned_in, base_name, each_expression, each_statement
+from rpl.passes.legalise.facts.usage import (
+    assigned_below,
+    assigned_in,
+    base_name,
+    doing_each,
+    each_expression,
+    each_statement,
+)
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts, visit_parts
 from rpl.passes.scope import Scope
 from rpl.passes.values import Record, Value, pose_of
 
 _MODAL = ("tool", "base", "robot_root")
+_SETTINGS = frozenset(f"${name}" for name in _MODAL)
 _ASKING = frozenset(("target_to_joints", "target_to_joints_near", "is_reachable", "joints_to_target"))
 State = dict[str, Value]
 
@@ -68,50 +76,28 @@ class ModalFlow(Forward[State]):
         self.changed = self.changes()
         self.unsure = self.changed_at_any_time()
         self.start = {f"${name}": rigid.IDENTITY for name in _MODAL if not self.is_unsure(f"${name}")}
-        made = set[str]().union(*(names or () for names in self.changed.values()))
+        made = set[str]().union(*self.changed.values())
         self.unknown = {name: value for name, value in self.start.items() if name not in made}
         self.solve(started(program), beside(program))
 
-    def changes(self) -> dict[int, set[str] | None]:
-        """What each routine assigns, itself or by its calls; None when that is not known."""
-        own: dict[int, set[str]] = {}
-        calls: dict[int, set[int]] = {}
-        unknown: set[int] = set()
+    def changes(self) -> dict[int, set[str]]:
+        """What each routine changes, itself or by its calls."""
+        variables, settings = assigned_below(self.program), doing_each(self.program, _settings, _SETTINGS)
+        found: dict[int, set[str]] = {}
         for key, one in self.summaries.items():
-            own[key], calls[key] = set(), set()
-            for node in walk(*bodies(one.routine)):
-                match node:
-                    case ir.Assign(target=target):
-                        own[key].add(_changed(target))
-                    case ir.For(counter=counter):
-                        own[key].add(counter.lower())
-                    case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
-                        unknown.add(key)
-                    case ir.CallRoutine(name=name) | ir.Call(name=name):
-                        routine = one.scope.routine(name)
-                        calls[key].update(() if routine is None else (id(routine),))
-        growing = True
-        while growing:
-            growing = False
-            for key, callees in calls.items():
-                more = set().union(*(own[one] for one in callees if one in own)) - own[key]
-                lost = key not in unknown and not callees.isdisjoint(unknown)
-                own[key] |= more
-                unknown |= {key} if lost else set()
-                growing = growing or bool(more) or lost
-        return {key: None if key in unknown else names for key, names in own.items()}
+            name = one.routine.name.lower()
+            own = {setting for setting, routines in settings.items() if name in routines}
+            found[key] = own | variables.get(name, set())
+        return found
 
-    def changed_at_any_time(self) -> set[str] | None:
-        """What interrupts, triggers, error routines and other tasks assign (their settings are their own); None: it may
-        be anything."""
+    def changed_at_any_time(self) -> set[str]:
+        """What interrupts, triggers, error routines and other tasks assign (their settings are their own)."""
         found: set[str] = set()
         reacting = {name.lower() for name in reactions(self.program)}
         others = set(beside(self.program)) | routines_beside(self.program)
         for name in sorted(reacting | others):
             for one in self.by_name.get(name, ()):
                 changed = self.changed[id(one.routine)]
-                if changed is None:
-                    return None
                 found |= {one for one in changed if name in reacting or not one.startswith("$")}
         for node in walk(*self.program.modules):
             match node:
@@ -120,7 +106,7 @@ class ModalFlow(Forward[State]):
         return found
 
     def is_unsure(self, name: str) -> bool:
-        return self.unsure is None or _variable(name) in self.unsure
+        return _variable(name) in self.unsure
 
     # ---- what the analysis asks
 
@@ -254,6 +240,11 @@ def _changed(target: ir.Expression) -> str:
     return base_name(target) or ""
 
 
+def _settings(node: object) -> Iterable[str]:
+    changed = _changed(node.target) if isinstance(node, ir.Assign) else ""
+    return (changed,) if changed in _SETTINGS else ()
+
+
 def _variable(name: str) -> str:
     """The variable of a name in a state, which may be that of an array's element."""
     return name.partition("[")[0]
@@ -269,8 +260,8 @@ def _with(state: State, name: str, value: Value | None) -> State:
     return {one: known for one, known in state.items() if one != name} if value is None else {**state, name: value}
 
 
-def _in(name: str, changed: set[str] | None) -> bool:
-    return changed is None or _variable(name) in changed
+def _in(name: str, changed: set[str]) -> bool:
+    return _variable(name) in changed
 
 
 def _is_outside(name: str, scope: Scope) -> bool:

@@ -255,8 +255,6 @@ def _setters(program: ir.Program) -> dict[str, frozenset[str]]:
         match node:
             case ir.Assign(target=ir.System(name=setting)) if setting in _FOLLOWED:
                 return (setting,)
-            case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
-                return _FOLLOWED
         return ()
 
     return doing_each(program, sets, _FOLLOWED)

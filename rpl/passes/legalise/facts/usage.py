@@ -138,18 +138,34 @@ def assigned_in(*found_in: ir.Body) -> set[str]:
 
 
 def assigned_below(program: ir.Program) -> dict[str, set[str]]:
-    """Routine (folded) -> names that it, or what it calls by name, assigns or passes where they could be changed."""
+    """Routine (folded) -> names that it, or what it calls, assigns or passes where they could be changed."""
     found: dict[str, set[str]] = {}
     calls: dict[str, set[str]] = {}
+    procedures = _procedures(program)
     for module in program.modules:
         for routine in module.routines:
             key = routine.name.lower()
             for body in bodies(routine):
                 found.setdefault(key, set()).update(assigned_in(body))
-            called = (node.name.lower() for node in walk(routine) if isinstance(node, ir.CallRoutine | ir.Call))
-            calls.setdefault(key, set()).update(called)
+            calls.setdefault(key, set()).update(*(_may_call(node, procedures) for node in walk(routine)))
     _close(found, calls)
     return found
+
+
+def _procedures(program: ir.Program) -> frozenset[str]:
+    """What a call by a text may mean, folded."""
+    routines = (routine for module in program.modules for routine in module.routines)
+    return frozenset(routine.name.lower() for routine in routines if routine.kind == "procedure")
+
+
+def _may_call(node: object, procedures: frozenset[str]) -> Iterable[str]:
+    """The routines (folded) that a node calls or may call."""
+    match node:
+        case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+            return procedures
+        case ir.CallRoutine(name=name) | ir.Call(name=name):
+            return (name.lower(),)
+    return ()
 
 
 def _statement(statement: ir.Statement, key: str, usage: Usage, calls: dict[str, set[str]], handlers: set[str]) -> None:
@@ -227,7 +243,7 @@ def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
 
 
 def doing(program: ir.Program, does: Callable[[object], bool]) -> frozenset[str]:
-    """The routines (folded names) with a node for which `does` holds, in themselves or in what they call by name."""
+    """The routines (folded names) with a node for which `does` holds, in themselves or in what they call."""
     return doing_each(program, lambda node: ("",) if does(node) else (), ("",))[""]
 
 
@@ -238,14 +254,13 @@ def doing_each(
     call."""
     calls: dict[str, set[str]] = {}
     found: dict[str, set[str]] = {what: set() for what in whats}
+    procedures = _procedures(program)
     for module in program.modules:
         for routine in module.routines:
             name = routine.name.lower()
             called = calls.setdefault(name, set())
             for node in walk(routine):
-                match node:
-                    case ir.CallRoutine(name=other, dynamic=None) | ir.Call(name=other):
-                        called.add(other.lower())
+                called.update(_may_call(node, procedures))
                 for what in does(node):
                     found[what].add(name)
     for names in found.values():

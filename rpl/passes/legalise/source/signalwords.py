@@ -2,7 +2,8 @@
 
 `SUCTION = 0` at the head of a URScript program, `suction = 1` in the first routine of a V+ program: the language has no
 names for signals, so people keep the numbers in variables. Where signals have names at the controller, the name is what
-was meant, and the variable goes. A variable that says something else as well stays; its signals have their numbers.
+was meant, and the variable goes; where they have numbers only, it is the number, with the name as its remark where the
+target has such. A variable that says something else as well stays; its signals have their numbers.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import GroupRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.source.signalparameters import signals_as_parameters
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -27,17 +28,15 @@ __all__ = ["signal_words"]
 _NUMBERS = (ir.IntType, ir.RealType)
 
 
-def _stay_numbers(context: Context) -> bool:
-    io = context.capabilities.io
-    return not context.foreign or not (io.signal_prefixes or io.number_data or GroupRule.DECLARED in io.groups)
-
-
-@legalising(unless=_stay_numbers, sees=("Signal",))
+@legalising(unless=lambda context: not context.foreign, sees=("Signal",))
 def signal_words(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose signals have names, or data in their place, and not in the program's own language. One
-    value has such a variable, wherever it is set; a program that asks for a signal before it is said is one that its
-    own controller stops."""
+    """Not in the program's own language, where they stay as they are. One value has such a variable, wherever it is set; a program that asks for a signal before it is said is one that its
+    own controller stops. Parameters that only say the number of a signal become signals with them."""
     worker = _Words(program)
+    if context.capabilities.io.signal_prefixes:
+        passed = signals_as_parameters(program, worker.values)
+        if passed is not program:
+            program, worker = passed, _Words(passed)
     return worker.program() if worker.values else program
 
 
