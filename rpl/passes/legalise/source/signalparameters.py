@@ -77,9 +77,9 @@ def _of_signals(routine: ir.Routine) -> Iterator[tuple[int, tuple[str, int]]]:
     for place, one in enumerate(routine.parameters):
         key, plain = one.name.lower(), one.mode == "value" and not (one.optional or one.switch)
         uses = said.get(key, [])
-        if plain and isinstance(one.type, _NUMBERS) and uses and len(set(uses)) == 1 and key not in local:
-            if names[key] == len(uses):
-                yield place, uses[0]
+        alone = len(set(uses)) == 1 and names[key] == len(uses) and key not in local
+        if plain and alone and isinstance(one.type, _NUMBERS):
+            yield place, uses[0]
 
 
 def _number_of(signal: ir.Signal) -> tuple[str, int] | None:
@@ -131,8 +131,7 @@ def _with_signals(routine: ir.Routine, found: _Places) -> ir.Routine:
                 return replace(node, type=ir.SignalType(kinds[name.lower()]), mode="reference")
             case ir.CallRoutine() | ir.Call() if places := found.get(node.name.lower()):
                 arguments = tuple(
-                    _signal(one, *places[place]) if place in places else one
-                    for place, one in enumerate(node.arguments)
+                    _signal(one, *places[place]) if place in places else one for place, one in enumerate(node.arguments)
                 )
                 return replace(node, arguments=arguments)
         return node

@@ -30,8 +30,9 @@ _NUMBERS = (ir.IntType, ir.RealType)
 
 @legalising(unless=lambda context: not context.foreign, sees=("Signal",))
 def signal_words(program: ir.Program, context: Context) -> ir.Program:
-    """Not in the program's own language, where they stay as they are. One value has such a variable, wherever it is set; a program that asks for a signal before it is said is one that its
-    own controller stops. Parameters that only say the number of a signal become signals with them."""
+    """Not in the program's own language, where they stay as they are. One value has such a variable, wherever it is
+    set; a program that asks for a signal before it is said is one that its own controller stops. Parameters that only
+    say the number of a signal become signals with them."""
     worker = _Words(program)
     if context.capabilities.io.signal_prefixes:
         passed = signals_as_parameters(program, worker.values)

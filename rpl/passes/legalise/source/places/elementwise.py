@@ -10,7 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.passes.capabilities import PlaceRule
+from rpl.ir.walk import walk
+from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
@@ -53,7 +54,7 @@ class _Worker:
             routines = tuple(self.routine(routine, scopes.routine(module, routine)) for routine in module.routines)
             modules.append(replace(module, routines=routines))
         if not self.routines:
-            return program
+            return replace(program, modules=tuple(modules))
         first = modules[0]
         made = ir.Module(
             self.context.fresh("rpl_positions"), first.dialect, routines=tuple(self.routines), task=first.task
@@ -75,9 +76,41 @@ class _Worker:
             return rewrite_parts(statement, expression, body)
 
         def body(statements: ir.Body) -> ir.Body:
-            return tuple(parts(statement) for statement in statements)
+            return tuple(
+                one for statement in statements for one in self.nothing_left(statement, scope) or (parts(statement),)
+            )
 
         return edit_bodies(routine, body)
+
+    def nothing_left(self, statement: ir.Statement, scope: Scope) -> ir.Body:
+        """A place less itself (INFORM `SUB P010 P010`, TP `PR[1]=LPOS-LPOS`) is that place with all its components set
+        to 0."""
+        match statement:
+            case ir.Assign(
+                target=ir.Name() as place, value=ir.Builtin(function="element_difference", arguments=(one, other))
+            ) if one == other and "element_difference" in self.lacking:
+                calls = any(isinstance(node, ir.Call) for node in walk(one))
+                if not calls and isinstance(self.known(place, scope), ir.TargetType | ir.PoseType):
+                    return self.zero(statement, place, one)
+        return ()
+
+    def zero(self, statement: ir.Assign, place: ir.Name, one: ir.Expression) -> ir.Body:
+        places = self.context.capabilities.places
+        rules = places.rules
+        if PlaceRule.WHOLE in rules or places.postures is Postures.JOINTS:  # a place is a pose and nothing else
+            return (replace(statement, value=ir.System("null_frame")),)
+        nothing = ir.IntLiteral(0)
+        values: dict[str, ir.Expression] = dict.fromkeys(ir.POSE, nothing)
+        if PlaceRule.QUATERNIONS in rules:
+            turn = (ir.IntLiteral(1), nothing, nothing, nothing)
+            values = {
+                "trans": ir.Aggregate(tuple((None, one) for one in (nothing, nothing, nothing)), "vector"),
+                "rot": ir.Aggregate(tuple((None, one) for one in turn), "rotation"),
+            }
+        done = [] if one == place else [replace(statement, value=one)]
+        done += [replace(statement, target=ir.Field(place, part), value=value) for part, value in values.items()]
+        first, *others = done
+        return (first, *(replace(one, origin=replace(one.origin, comments=())) for one in others))
 
     def moves(self, target: ir.Builtin) -> bool:
         """Does a move of the target's say this itself?"""

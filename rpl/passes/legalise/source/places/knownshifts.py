@@ -1,0 +1,247 @@
+"""Moves that are shifted by a way in a variable, where the variable surely holds a way that can be said plainly.
+
+A controller that shifts all positions from one instruction on (INFORM SFTON) keeps the shift in a variable: `shift =
+frame : way : inverse(frame)`, and each move goes in `shift : frame`. That is `frame : way`, a product that people write
+where places have products. Where they have none and the way turns nothing, it is the point offset by x, y and z of the
+way (RAPID Offs), or by the way itself (TP `Offset,PR[n]`, which adds components; elsewhere that is an offset too).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from rpl import ir
+from rpl.ir.walk import rewrite, walk
+from rpl.passes.capabilities import PlaceRule, Places
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.forward import Forward, beside, started
+from rpl.passes.legalise.facts.usage import assigned_below, base_name, called_below, usage_of
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.scope import Scope
+
+__all__ = ["known_shifts"]
+
+_NOWHERE = ir.System("null_frame")
+# Folded name of a variable -> the shift that it holds; a name with `/` behind it: a place that turns nothing.
+State = Mapping[str, ir.Expression]
+_KNOWN_OF_NONE: State = {}
+
+
+@legalising(unless=lambda context: not context.foreign, sees=("function inverse", "function element_sum"))
+def known_shifts(program: ir.Program, context: Context) -> ir.Program:
+    """Not in the program's own language, which has an instruction for it. A shift that nothing reads any more goes."""
+    shifts = _shifts(program)
+    straight = any(isinstance(node, ir.Assign) and _turns_nothing(node.value) for node in walk(*program.modules))
+    if not shifts and not straight:
+        return program
+    moves = _Moves(program, shifts, context.capabilities.places)
+    if not moves.found:
+        return program
+
+    def moved(node: object) -> object:
+        return moves.found.get(id(node), node) if isinstance(node, ir.Move) else node
+
+    modules = tuple(
+        replace(module, routines=tuple(rewrite(routine, moved) for routine in module.routines))
+        for module in program.modules
+    )
+    return _without_unread(replace(program, modules=modules), shifts)
+
+
+@dataclass(frozen=True, slots=True)
+class _Shift:
+    """`frame : way : inverse(frame)`; frame None: along the base."""
+
+    frame: ir.Expression | None
+    way: ir.Name
+
+
+def _shift(value: ir.Expression) -> _Shift | None:
+    match value:
+        case ir.Builtin(function="pose_of", arguments=(ir.Name() as way,)):
+            return _Shift(None, way)
+        case ir.Binary(
+            op=":",
+            left=ir.Binary(op=":", left=frame, right=ir.Builtin(function="pose_of", arguments=(ir.Name() as way,))),
+            right=ir.Builtin(function="inverse", arguments=(other,)),
+        ) if frame == other:
+            return _Shift(frame, way)
+    return None
+
+
+def _shifts(program: ir.Program) -> frozenset[str]:
+    """Variables (folded names) that hold shifts and that nothing but assignments of them and of no shift changes."""
+    usage = usage_of(program)
+    found: dict[str, bool] = {}
+    for node in walk(*program.modules):
+        if isinstance(node, ir.Assign) and isinstance(node.target, ir.Name):
+            name, shift = node.target.id.lower(), _shift(node.value)
+            known = shift is not None and not _names(shift.frame) & usage.assigned
+            found[name] = found.get(name, True) and (known or node.value == _NOWHERE)
+    declared = [one.name.lower() for one in _variables(program)]
+    return frozenset(
+        name for name, held in found.items() if held and name not in usage.otherwise and declared.count(name) == 1
+    )
+
+
+def _variables(program: ir.Program) -> list[ir.Variable]:
+    return [node for node in walk(*program.modules) if isinstance(node, ir.Variable)]
+
+
+def _names(expression: ir.Expression | None) -> set[str]:
+    return {node.id.lower() for node in walk(expression) if isinstance(node, ir.Name)} if expression else set()
+
+
+class _Moves(Forward[State]):
+    """`found`: by identity, the moves that are said otherwise."""
+
+    def __init__(self, program: ir.Program, shifts: frozenset[str], can: Places) -> None:
+        super().__init__(program, dict.fromkeys(shifts, _NOWHERE), _KNOWN_OF_NONE)
+        self.shifts, self.can = shifts, can
+        self.below = assigned_below(program)
+        apart = {task.entry.lower() for task in program.tasks if task.kind != "motion"} | set(beside(program))
+        apart |= {task.entry.lower() for task in program.tasks[1:]}
+        self.unsure = {name for one in called_below(program, apart) for name in self.below.get(one, ())}
+        self.start = {name: value for name, value in self.start.items() if name not in self.unsure}
+        self.found: dict[int, ir.Move] = {}
+        self.met: dict[int, tuple[ir.Move, ir.Move | None]] = {}
+        self.solve(started(program), beside(program))
+        self.found = {key: new for key, (_, new) in self.met.items() if new is not None}
+
+    def join(self, one: State, other: State) -> State:
+        same = {name: value for name, value in one.items() if other.get(name) == value}
+        return one if len(same) == len(one) else same
+
+    def transfer(self, statement: ir.Statement, before: State) -> State:
+        match statement:
+            case ir.Assign(target=target, value=value) if (name := base_name(target)) is not None:
+                return self.assigned(name, target, value, before)
+            case ir.Do(arguments=arguments):
+                return _without(before, {base_name(one) or "" for one in arguments if one is not None})
+            case ir.Move(search=ir.Search(found=place)) if place is not None:
+                return _without(before, {base_name(place) or ""})
+        return before
+
+    def assigned(self, name: str, target: ir.Expression, value: ir.Expression, before: State) -> State:
+        if name in self.unsure:
+            return _without(before, {name})
+        match target:
+            case ir.Name() if name in self.shifts:
+                return {**_without(before, {name}), name: value}
+            case ir.Field(base=ir.Name(), name=part) if part.lower() in ("x", "y", "z"):
+                turned = f"{name}/"
+                kept = _without(before, {name})
+                return {**kept, turned: before[turned]} if turned in before else kept
+            case ir.Name() if _turns_nothing(value):
+                return {**_without(before, {name}), f"{name}/": _NOWHERE}
+        return _without(before, {name})
+
+    def left(self, before: State, end: State, routine: ir.Routine, there: Scope, here: Scope) -> State:
+        changed = self.below.get(routine.name.lower(), set())
+        kept = _without(before, changed)
+        return {**kept, **{name: value for name, value in end.items() if name.rstrip("/") in changed}}
+
+    def passed(self, call: ir.CallRoutine | ir.Call, state: State) -> State:
+        if not self.meant(call):
+            return _KNOWN_OF_NONE
+        return _without(state, {base_name(one.value) or "" for one in call.arguments if one.value is not None})
+
+    def note(self, statement: ir.Statement, before: State) -> None:
+        if not isinstance(statement, ir.Move):
+            return
+        new = self.said(statement, before)
+        _, earlier = self.met.get(id(statement), (statement, new))
+        self.met[id(statement)] = statement, new if new == earlier else None
+
+    def said(self, move: ir.Move, state: State) -> ir.Move | None:
+        match move.target:
+            case ir.Builtin(function="element_sum", arguments=(place, ir.Name() as way)) if self.is_plain(
+                move, state, way
+            ):
+                return None if "element_sum" in self.can.move_functions else self.along(move, place, way)
+        match move.frame:
+            case ir.Name(id=name):
+                frame: ir.Expression | None = None
+            case ir.Binary(op=":", left=ir.Name(id=name), right=right):
+                frame = right
+            case _:
+                return None
+        held = state.get(name.lower()) if name.lower() in self.shifts else None
+        if held is None or move.relative is not None:
+            return None
+        move = replace(move, frame=_NOWHERE if frame is None else frame)
+        if held == _NOWHERE:
+            return move
+        shift = _shift(held)
+        if shift is None or shift.frame != frame:
+            return None
+        summed = "element_sum" in self.can.move_functions
+        if (summed or PlaceRule.QUATERNIONS in self.can.rules) and self.is_plain(move, state, shift.way):
+            if summed:
+                return replace(move, target=ir.Builtin("element_sum", (move.target, shift.way)))
+            return self.along(move, move.target, shift.way)
+        pose = ir.Builtin("pose_of", (shift.way,))
+        return replace(move, frame=pose if frame is None else ir.Binary(":", frame, pose))
+
+    def is_plain(self, move: ir.Move, state: State, way: ir.Name) -> bool:
+        """Does the way turn nothing, and is all of the move said by one target?"""
+        return f"{way.id.lower()}/" in state and move.via is None and move.relative is None
+
+    def along(self, move: ir.Move, place: ir.Expression, way: ir.Name) -> ir.Move:
+        if "displaced" in self.can.move_functions:
+            return replace(move, target=ir.Builtin("displaced", (place, ir.Builtin("pose_of", (way,)))))
+        parts = (ir.Field(way, part) for part in ("x", "y", "z"))
+        return replace(move, target=ir.Builtin("offset", (place, *parts)))
+
+
+def _turns_nothing(value: ir.Expression) -> bool:
+    match value:
+        case ir.Builtin(function="element_difference", arguments=(one, other)):
+            return one == other and not any(isinstance(node, ir.Call) for node in walk(one))
+        case ir.Aggregate(entries=entries):
+            turns = {name: entry for name, entry in entries if name in ir.ANGLES}
+            return len(turns) == len(ir.ANGLES) and all(_is_zero(one) for one in turns.values())
+    return False
+
+
+def _is_zero(value: ir.Expression) -> bool:
+    return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
+
+
+def _without(state: State, names: set[str]) -> State:
+    """The state with nothing known of these variables, nor of shifts by them."""
+    kept = {name: value for name, value in state.items() if name.rstrip("/") not in names and not _names(value) & names}
+    return state if len(kept) == len(state) else kept
+
+
+def _without_unread(program: ir.Program, shifts: frozenset[str]) -> ir.Program:
+    """The program without those of the shifts that are only assigned."""
+    written: set[int] = set()
+    for node in walk(*program.modules):
+        if isinstance(node, ir.Assign):
+            written.add(id(node.target))
+    read = {node.id.lower() for node in walk(*program.modules) if isinstance(node, ir.Name) and id(node) not in written}
+    gone = shifts - read
+
+    def left(node: object) -> object:
+        match node:
+            case ir.Assign(target=ir.Name(id=name)) if name.lower() in gone:
+                return ir.Nothing(origin=node.origin) if node.origin.comments else ()
+        return node
+
+    return replace(
+        program,
+        modules=tuple(
+            replace(
+                module,
+                declarations=tuple(
+                    one
+                    for one in module.declarations
+                    if not (isinstance(one, ir.Variable) and one.name.lower() in gone)
+                ),
+                routines=tuple(rewrite(routine, left) for routine in module.routines),
+            )
+            for module in program.modules
+        ),
+    )
