@@ -27,9 +27,11 @@ C00001=300.000,50.000,250.000,180.0000,0.0000,90.0000
 ////FRAME USER 2
 ///GROUP1 RB1
 NOP
+MOVJ C00000 VJ=20.00 PL=0
 {lines}
 END
 """
+FRAMES = "//UFRAME 2\n///NAME PILE\n///TOOL 0\n////BUSER 20.000,30.000,-40.000,0.0000,0.0000,0.0000\n"
 SHIFTED = """SUB P010 P010
 SETE P010 (3) 40000
 SFTON P010 UF#(2)
@@ -46,31 +48,36 @@ UNSURE = {
 @pytest.mark.parametrize(
     ("target", "written"),
     [
-        ("rapid", ["MoveL Offs(C00000,P010.trans.x,P010.trans.y,P010.trans.z),v200,fine,tool0\\WObj:=UF2;"]),
+        ("rapid", ["MoveL Offs(C00000,P010.trans.x,P010.trans.y,P010.trans.z),v200,fine,TL0\\WObj:=UF2;"]),
         ("tp", ["L P[1:C00000] 200mm/sec FINE Offset,PR[1:P010]", "L P[2:C00001] 200mm/sec FINE Offset,PR[1:P010]"]),
-        ("krl", ["$BASE=UF2:rpl_pose_of(P010)"]),
+        ("krl", ["$BASE=BASE_DATA[2]:rpl_pose_of(P010)"]),
         ("vplus", [":p010"]),
     ],
 )
 def test_a_shift_along_the_frame_of_the_move(target: str, written: list[str]) -> None:
-    journey = there_and_back({"PILE.JBI": JOB.format(lines=SHIFTED)}, "inform", target)
+    journey = there_and_back(
+        {"PILE.JBI": JOB.format(lines=SHIFTED), "UFRAME.CND": FRAMES}, "inform", target, "motoman_gp12"
+    )
     assert all(line in journey.text for line in written), journey.text
     assert "SHIFT:=" not in journey.text and "SHIFT=" not in journey.text and "COMPOSE" not in journey.text
-    assert journey.prove("PILE").equal
+    assert journey.prove("PILE").verdict in ("equal", "alike")  # joint speeds and turns by the arms
 
 
 @pytest.mark.parametrize("case", UNSURE)
 def test_a_shift_that_is_not_sure_stays_a_variable(case: str) -> None:
-    journey = there_and_back({"PILE.JBI": JOB.format(lines=UNSURE[case])}, "inform", "rapid")
-    assert "PoseMult(SHIFT,UF2)" in journey.text
-    assert journey.prove("PILE").equal
+    journey = there_and_back(
+        {"PILE.JBI": JOB.format(lines=UNSURE[case]), "UFRAME.CND": FRAMES}, "inform", "rapid", "motoman_gp12"
+    )
+    assert "PoseMult(SHIFT," in journey.text
+    assert journey.prove("PILE").verdict in ("equal", "alike")  # joint speeds and turns by the arms
 
 
 LISTING = """/PROG  PILE
 /MN
    1:  UFRAME_NUM=0 ;
    2:  UTOOL_NUM=0 ;
-   3:  PR[11:way]=LPOS-LPOS ;
+   3:J P[1] 20% FINE ;
+   4:  PR[11:way]=LPOS-LPOS ;
    4:  PR[11,3:way]=40 ;
 {more}
    6:L P[1] 200mm/sec FINE Offset,PR[11:way] ;
@@ -87,7 +94,7 @@ P[1]{{
 
 @pytest.mark.parametrize("more", ["", "   5:  PR[11,6:way]=10 ;"])
 def test_an_offset_of_a_listing_is_one_where_its_register_turns_nothing(more: str) -> None:
-    journey = there_and_back({"PILE.LS": LISTING.format(more=more)}, "tp", "rapid")
+    journey = there_and_back({"PILE.LS": LISTING.format(more=more)}, "tp", "rapid", "fanuc_lrmate200id")
     assert ("Offs(P1,PR11.trans.x,PR11.trans.y,PR11.trans.z)" in journey.text) == (not more)
     assert ("rpl_element_sum" in journey.text) == bool(more)
-    assert journey.prove("PILE").equal
+    assert journey.prove("PILE").verdict in ("equal", "alike")  # joint speeds and turns by the arms
