@@ -44,6 +44,7 @@ RULES = Rules(
     name="tp",
     first_signal=1,  # DO[1], F[1], AO[1]
     kept_at=_KEPT_AT,
+    settings_data=frozenset((*tables.FRAMES, *(f"{bank}_NUM" for bank in tables.FRAMES), "$WAITTMOUT")),
     inputs=_INPUTS,
     # Behind FINE the program goes on when the robot is in position, behind CNT as soon as the move slows down (M: at
     # the beginning of the corner).

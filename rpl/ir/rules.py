@@ -223,6 +223,8 @@ class Rules:
     (else it bends continuously; see rpl.passes.curves). analog: what numbers of analogue signals stand for, as far as
     the language fixes it; without a range the I/O configuration alone says it. system_data: modules (folded) of data
     that belong to the controller and not to a program; what a program does not use of them is no part of it.
+    settings_data: variables that a reader keeps settings of the controller in (frames, the number of the frame in use,
+    the time that waits take); where the moves say what is set, nobody looks at them.
     """
 
     name: str
@@ -267,6 +269,7 @@ class Rules:
     mean_parabolas: bool = False
     analog: tuple[AnalogPorts, ...] = ()
     system_data: frozenset[str] = frozenset()
+    settings_data: frozenset[str] = frozenset()
 
     def percents_of(self, name: str) -> tuple[float, float]:
         """Least and most that counts of a percentage of acceleration."""

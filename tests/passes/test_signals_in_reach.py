@@ -17,6 +17,7 @@ TEXT = """.PROGRAM main()
  TIMER 3 = 0
  WAIT SIG(sig.no) OR (TIMER(3) > limit)
  ok = SIG(sig.no)
+ TYPE "waited for", sig.no
 .END
 """
 

@@ -1,5 +1,6 @@
 """What the passes have made and nothing reads in the end: flags of waits with a limit, numbers of errors that are
-handled where they come. It would take numbers and lines.
+handled where they come. So are frames and settings of the source's controller, once the moves say them. It would take
+numbers and lines.
 """
 
 from __future__ import annotations
@@ -9,20 +10,23 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects
+from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import NOWHERE
 
 
-@legalising(unless=lambda context: not context.capabilities.storage.banks)
+@legalising(unless=lambda context: not (context.capabilities.storage.banks or rules_of(context.source).settings_data))
 def unread_flags(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets where data takes numbers. Data of the source stays: people look at it."""
-    made = {
+    """Flags and numbers only for targets where data takes numbers. Data of the source stays: people look at it."""
+    settings = {name.lower() for name in rules_of(context.source).settings_data} if context.foreign else set()
+    numbered = bool(context.capabilities.storage.banks)
+    made = settings | {
         one.name.lower()
-        for module in program.modules
+        for module in (program.modules if numbered else ())
         for declared in (module.declarations, *(routine.declarations for routine in module.routines))
         for one in declared
         if isinstance(one, ir.Variable) and one.origin is NOWHERE and one.storage == "variable"
@@ -37,7 +41,9 @@ def unread_flags(program: ir.Program, context: Context) -> ir.Program:
                 named[name.lower()] += 1
             case ir.Assign(target=ir.Name(id=name), value=value) if effects.safe(value):
                 written[name.lower()] += 1
-            case ir.WaitUntil(timed_out=ir.Name(id=name)):
+            case ir.Assign(target=target, value=value) if base_name(target) in settings and effects.safe(value):
+                written[base_name(target) or ""] += 1
+            case ir.WaitUntil(timed_out=ir.Name(id=name)) if numbered:
                 written[name.lower()] += 1
                 flags.add(name.lower())
     idle = {name for name in made | flags if written[name] and named[name] == written[name]}
@@ -47,13 +53,24 @@ def unread_flags(program: ir.Program, context: Context) -> ir.Program:
 def _without(program: ir.Program, idle: set[str]) -> ir.Program:
     def change(statement: ir.Statement) -> ir.Body:
         match statement:
-            case ir.Assign(target=ir.Name(id=name)) if name.lower() in idle:
+            case ir.Assign(target=target) if base_name(target) in idle:
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
             case ir.WaitUntil(timed_out=ir.Name(id=name)) if name.lower() in idle:
                 return (replace(statement, timed_out=None),)
         return (rewrite_parts(statement, lambda expression: expression, lambda body: map_body(body, change)),)
 
-    return edit_all(program, lambda body: map_body(body, change))
+    done = edit_all(program, lambda body: map_body(body, change))
+    return replace(
+        done,
+        modules=tuple(
+            replace(one, declarations=tuple(each for each in one.declarations if not _begins(each, idle)))
+            for one in done.modules
+        ),
+    )
+
+
+def _begins(one: ir.Declaration, idle: set[str]) -> bool:
+    return isinstance(one, ir.Initialise) and base_name(one.assign.target) in idle
 
 
 __all__ = ["unread_flags"]

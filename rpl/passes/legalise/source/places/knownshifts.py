@@ -159,7 +159,7 @@ class _Moves(Forward[State]):
             case ir.Builtin(function="element_sum", arguments=(place, ir.Name() as way)) if self.is_plain(
                 move, state, way
             ):
-                return None if "element_sum" in self.can.move_functions else self.along(move, place, way)
+                return None if self.can.move_functions & {"element_sum", "displaced"} else self.along(move, place, way)
         match move.frame:
             case ir.Name(id=name):
                 frame: ir.Expression | None = None
@@ -189,8 +189,6 @@ class _Moves(Forward[State]):
         return f"{way.id.lower()}/" in state and move.via is None and move.relative is None
 
     def along(self, move: ir.Move, place: ir.Expression, way: ir.Name) -> ir.Move:
-        if "displaced" in self.can.move_functions:
-            return replace(move, target=ir.Builtin("displaced", (place, ir.Builtin("pose_of", (way,)))))
         parts = (ir.Field(way, part) for part in ("x", "y", "z"))
         return replace(move, target=ir.Builtin("offset", (place, *parts)))
 
