@@ -1,4 +1,4 @@
-"""A time limit that a controller keeps in a setting: FANUC's `$WAITTMOUT`, hundredths of a second (operator's manual)."""
+"""A time limit that a controller keeps in a setting: FANUC's `$WAITTMOUT`, in hundredths of a second (its manual)."""
 
 from __future__ import annotations
 
