@@ -43,7 +43,6 @@ from rpl.passes.legalise.source.texts.wholetexts import whole_texts
 from rpl.passes.legalise.source.timedwaits import timed_waits
 from rpl.passes.legalise.source.undeclareddata import undeclared_data
 from rpl.passes.legalise.source.untyped import drop_untyped
-from rpl.passes.legalise.source.waittimes import known_wait_times
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
 from rpl.passes.legalise.source.ways.splines import straight_splines, without_path_rules
@@ -75,7 +74,6 @@ STAGE = Stage(
         whole_times,
         known_limits,
         timed_waits,
-        known_wait_times,
         same_units,
         cyclic_flags,
         named_flags,
