@@ -16,8 +16,10 @@ from .longlogic import long_logic
 from .moveplaces import places_of_moves
 from .resetclocks import stopped_resets
 from .shown import values_beside_messages
+from .zeroplaces import zero_places
 
 PASSES: tuple[Placed, ...] = (
+    Placed(zero_places, "source", behind="known_shifts"),
     Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
     Placed(places_of_moves, "settings", behind="stand_first"),
