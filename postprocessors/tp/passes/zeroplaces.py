@@ -14,7 +14,7 @@ from rpl.passes.rewrite import rewrite_parts
 
 __all__ = ["zero_places"]
 
-_HERE = ir.Builtin("current_target")
+_HERE = ir.Builtin("current_target", ())
 
 
 @legalising(sees=("function element_difference",))
