@@ -19,7 +19,6 @@ from .shown import values_beside_messages
 from .zeroplaces import zero_places
 
 PASSES: tuple[Placed, ...] = (
-    Placed(zero_places, "source", behind="known_shifts"),
     Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
     Placed(places_of_moves, "settings", behind="stand_first"),
@@ -29,6 +28,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(read_components, "control", behind="fit_loops"),
     Placed(arguments_in_registers, "control", behind="fit_loops"),
     Placed(long_logic, "control", behind="fit_loops"),
+    Placed(zero_places, "storage", before="unread_flags"),
     Placed(limited_waits, "storage", before="unread_flags"),
 )
 LAST = (exact_ends,)

@@ -1,5 +1,5 @@
-"""A place less itself is no place at all: `PR[n]=LPOS-LPOS` is how people clear a register, because one that nothing has
-been written to yet has no value to take away from itself (a fault of the controller).
+"""A place less itself is no place at all: `PR[n]=LPOS-LPOS` is how people clear a register, because one that nothing
+has been written to yet has no value to take away from itself (a fault of the controller).
 """
 
 from __future__ import annotations
