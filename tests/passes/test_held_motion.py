@@ -15,6 +15,7 @@ from rpl.proof.wiring import in_words_of, with_signal_names
 from rpl.simulation import run_program
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import translate_program
+from tests.refusing import refused
 
 ARM = "abb_irb1200_5_90"
 CELL = """[[reaction]]
@@ -62,15 +63,14 @@ GOING_ON = {
     "held": "StopMove; bStopped:=TRUE; WaitTime 1; StartMove;",
     "stored": "StopMove; StorePath; bStopped:=TRUE; WaitTime 1; RestoPath; StartMove;",
     "signals behind": "StopMove; WaitTime 1; StartMove; bStopped:=TRUE; SetDO do40,1;",
-    "in a routine": "bStopped:=TRUE; HoldIt;",
-    "chosen": "IF di6=1 THEN StopMove; WaitTime 1; StartMove; ENDIF bStopped:=TRUE;",
 }
 OTHERWISE = {
-    "stays": ("StopMove; bStopped:=TRUE;", "motion-stays-stopped"),
-    "only sometimes": ("StopMove; IF bStopped THEN StartMove; ENDIF", "motion-stays-stopped"),
-    "left before": ("StopMove; IF di6=0 RETURN; StartMove;", "motion-stays-stopped"),
-    "early": ("StopMove; bStopped:=TRUE; StartMove; WaitTime 1;", "motion-goes-on-early"),
-    "early in a routine": ("HoldIt; WaitTime 1;", "motion-goes-on-early"),
+    "stays": "StopMove; bStopped:=TRUE;",
+    "only sometimes": "StopMove; IF bStopped THEN StartMove; ENDIF",
+    "left before": "StopMove; IF di6=0 RETURN; StartMove;",
+    "early": "StopMove; bStopped:=TRUE; StartMove; WaitTime 1;",
+    "in a routine": "bStopped:=TRUE; HoldIt;",
+    "chosen": "IF di6=1 THEN StopMove; WaitTime 1; StartMove; ENDIF bStopped:=TRUE;",
 }
 
 
@@ -111,16 +111,14 @@ def test_the_move_goes_on_behind_the_routine(form: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("form", OTHERWISE)
-def test_what_goes_on_at_another_time_is_named(form: str) -> None:
-    trap, expected = OTHERWISE[form]
-    read = read_sources([source_from_text("Hold.mod", program(trap))], "rapid", Diagnostics())
-    diagnostics = Diagnostics()
-    translate_program(read, "krl", ARM, None, diagnostics)
-    assert expected in codes(diagnostics, Severity.LOSS)
+def test_what_goes_on_at_another_time_is_refused_at_the_stop(form: str) -> None:
+    text = program(OTHERWISE[form])
+    line = next(at for at, one in enumerate(text.splitlines(), 1) if "StopMove" in one)
+    assert refused(text, "rapid", "krl", ARM) == [("motion-stays-stopped", line)]
 
 
 @pytest.mark.parametrize("target", ["tp", "urscript", "vplus", "inform"])
-@pytest.mark.parametrize("trap", [*GOING_ON.values(), *(trap for trap, _ in OTHERWISE.values())])
+@pytest.mark.parametrize("trap", [*GOING_ON.values(), *OTHERWISE.values()])
 def test_a_move_that_would_begin_again_in_its_middle_is_refused_where_the_interrupt_is_ordered(
     trap: str, target: str
 ) -> None:

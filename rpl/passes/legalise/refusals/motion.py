@@ -6,7 +6,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import InterruptRule
 from rpl.passes.legalise.interrupts.brakedmoves import BRAKED
-from rpl.passes.legalise.interrupts.heldmotion import EARLY, STAYS
+from rpl.passes.legalise.interrupts.heldmotion import STAYS
 from rpl.passes.legalise.interrupts.identities import ASKED, ORDERED, SEVERAL
 from rpl.passes.legalise.places.nextmove.queuedwaits import PAUSED_TIMED
 from rpl.passes.legalise.records.arcdistances import STRAIGHT as COMPUTED_ON_ARC
@@ -75,8 +75,7 @@ MOTION = (
     Refusal("a routine that asks which interrupt has called it", ASKED),
     Refusal("an interrupt that no task and no search can stand for", NOT_WATCHED),
     Refusal("an interrupt that brakes a move which goes on behind it", BRAKED),
-    Refusal("a motion that an interrupt stops and something else lets go on", STAYS),
-    Refusal("a motion that goes on before the routine has ended that stopped it", EARLY),
+    Refusal("a motion that an interrupt stops and that goes on before its routine has ended, or later", STAYS),
     Refusal("a move that a condition ends", SEARCH, (ir.Move,), _search),
     Refusal("an action at a place of an arc that the run decides", COMPUTED_ON_ARC),
     Refusal("an action on the way of a joint move, where moves are cut at places", ON_JOINT_MOVE),
