@@ -1,24 +1,21 @@
-"""Arguments of tasks by reference (V+), for targets whose tasks take values or none: a parameter that nothing changes
-while the task runs becomes a value. A start that gives a task a variable which either of them may change is refused.
+"""Arguments of tasks by reference (V+), for targets whose tasks take values or none: a parameter that the task leaves
+as it is and that each start gives a number, a text or something calculated becomes a value. A start that gives a task a
+variable, which either of them may change, is refused.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import assigned_in, base_name
-from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.editing import edit_all, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.scope import ProgramScope, Scope
 
 SHARED = code(
     "task-argument-shared",
@@ -32,24 +29,25 @@ SHARED = code(
 @legalising(sees=("TaskControl",))
 def task_references(program: ir.Program, context: Context) -> ir.Program:
     """For every target that tells a task's arguments apart from its data."""
-    if not any(isinstance(node, ir.TaskControl) and node.arguments for node in walk(*program.modules)):
-        return program
-    called = {node.name.lower() for node in walk(*program.modules) if isinstance(node, ir.CallRoutine | ir.Call)}
-    starts = _starts(program)
+    nodes = [*walk(*program.modules)]
+    starts = [one for one in nodes if isinstance(one, ir.TaskControl) and one.op == "start" and one.arguments]
+    called = {one.name.lower() for one in nodes if isinstance(one, ir.CallRoutine | ir.Call)}
     shared: dict[str, str] = {}  # task -> a parameter that is no value
-    modules = []
-    for module in program.modules:
-        routines = []
-        for routine in module.routines:
-            name = routine.name.lower()
-            given = [] if name in called else starts.get(name, [])
-            values = _values(routine, given)
-            parameters = tuple(replace(one, mode="value") if one in values else one for one in routine.parameters)
-            left = [one.name for one in parameters if one.mode == "reference"]
-            if left and name in starts:
-                shared[name] = left[0]
-            routines.append(replace(routine, parameters=parameters) if values else routine)
-        modules.append(replace(module, routines=tuple(routines)))
+
+    def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        name = routine.name.lower()
+        given = [one.arguments for one in starts if one.task.lower() == name]
+        if not given:
+            return routine
+        fits = name not in called and all(len(one) == len(routine.parameters) for one in given)
+        written = assigned_in(*bodies(routine))
+        parameters = []
+        for at, one in enumerate(routine.parameters):
+            apart = fits and one.name.lower() not in written and all(_calculated(row[at]) for row in given)
+            if one.mode == "reference" and not apart:
+                shared.setdefault(name, one.name)
+            parameters.append(replace(one, mode="value") if one.mode == "reference" and apart else one)
+        return replace(routine, parameters=tuple(parameters))
 
     def change(statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.TaskControl) and statement.op == "start" and statement.task.lower() in shared:
@@ -57,65 +55,13 @@ def task_references(program: ir.Program, context: Context) -> ir.Program:
             return (stopped(statement, SHARED, context, **told),)
         return (inside(statement, lambda body: map_body(body, change)),)
 
-    return edit_all(replace(program, modules=tuple(modules)), lambda body: map_body(body, change))
+    changed = edit_each(program, work) if starts else program
+    return edit_all(changed, lambda body: map_body(body, change)) if shared else changed
 
 
-@dataclass(frozen=True, slots=True)
-class _Start:
-    """One start of a task: where it stands."""
-
-    control: ir.TaskControl
-    routine: ir.Routine
-    scope: Scope
-
-
-def _starts(program: ir.Program) -> dict[str, list[_Start]]:
-    scopes = ProgramScope(program)
-    found: dict[str, list[_Start]] = {}
-    for module in program.modules:
-        for routine in module.routines:
-            for statement in (one for body in bodies(routine) for one in statements_in(body)):
-                if isinstance(statement, ir.TaskControl) and statement.op == "start":
-                    start = _Start(statement, routine, scopes.routine(module, routine))
-                    found.setdefault(statement.task.lower(), []).append(start)
-    return found
-
-
-def _values(routine: ir.Routine, starts: Sequence[_Start]) -> list[ir.Parameter]:
-    """The parameters by reference that are as good as values."""
-    plain = all(not one.name and one.value is not None for start in starts for one in start.control.arguments)
-    if not starts or not plain or any(len(one.control.arguments) != len(routine.parameters) for one in starts):
-        return []
-    written = assigned_in(*bodies(routine))
-    return [
-        one
-        for at, one in enumerate(routine.parameters)
-        if one.mode == "reference" and one.name.lower() not in written
-        if all(_settled(start.control.arguments[at].value, start) for start in starts)
-    ]
-
-
-def _settled(value: ir.Expression | None, start: _Start) -> bool:
-    """Does nothing change the argument behind the start? True of what is calculated for it, and of a variable of the
-    routine that is set in one place."""
-    if value is None or base_name(value) is None:
-        return value is not None
-    name = base_name(value)
-    symbol = None if name is None else start.scope.value(name)
-    if name is None or symbol is None or symbol.routine is None:
-        return False
-    set_in = Counter(
-        one
-        for body in bodies(start.routine)
-        for statement in statements_in(body)
-        for one in {*assigned_in((_alone(statement),))}
-    )
-    return set_in[name] <= 1
-
-
-def _alone(statement: ir.Statement) -> ir.Statement:
-    """The statement without the bodies inside."""
-    return inside(statement, lambda body: ())
+def _calculated(argument: ir.Argument) -> bool:
+    """Is it given by its place, and no variable?"""
+    return not argument.name and argument.value is not None and base_name(argument.value) is None
 
 
 __all__ = ["task_references"]
