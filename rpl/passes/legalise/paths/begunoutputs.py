@@ -3,7 +3,7 @@
 A controller that holds the program only until the robot has begun a move (V+) switches an output that stands behind a
 move where that move begins. Elsewhere the program is there near the end of the move: outputs, and looks at inputs and
 timers, go in front of the move, or become actions at its begin where the program runs ahead of the robot (KRL). An
-output that cannot be put there is named.
+output that cannot be put there, and one behind branches that end with moves, is named.
 """
 
 from __future__ import annotations
@@ -59,8 +59,6 @@ def _routine(routine: ir.Routine, goes_on: Concurrent, put: list[ir.Statement]) 
         driving = False  # a move that the program does not wait for is on its way
         while rest:
             statement = rest.pop(0)
-            if isinstance(statement, ir.If):
-                statement, rest = _into_branches(statement, rest, given, goes_on)
             statement = inside(statement, placed)
             if isinstance(statement, ir.Move) and _waited_for(statement, goes_on):
                 first, rest = _at_begin(statement, rest, given)
@@ -87,49 +85,6 @@ def _is(one: ir.Statement, other: ir.Statement) -> bool:
 def _waited_for(move: ir.Move, goes_on: Concurrent) -> bool:
     """Is what stands behind the move done when it ends, as it is written?"""
     return move.search is None and not (move.concurrent and goes_on is not Concurrent.NO)
-
-
-def _into_branches(
-    choice: ir.If, rest: list[ir.Statement], given: frozenset[str], goes_on: Concurrent
-) -> tuple[ir.If, list[ir.Statement]]:
-    """Behind branches that all end with a move, what is done at its begin stands at the end of each."""
-    moves = _last_moves(choice)
-    if moves is None or not all(_waited_for(one, goes_on) for one in moves):
-        return choice, rest
-    first, behind = _at_begin(moves[0], rest, given)
-    if not first or any(list(map(id, _at_begin(one, rest, given)[0])) != list(map(id, first)) for one in moves):
-        return choice, rest
-    return _with_ends(choice, tuple(first)), behind
-
-
-def _last_moves(choice: ir.If) -> list[ir.Move] | None:
-    """The move at the end of each branch; None where one has none."""
-    found: list[ir.Move] = []
-    for body in blocks(choice):
-        match body[-1:]:
-            case (ir.Move() as move,):
-                found.append(move)
-            case (ir.If() as inner,) if (further := _last_moves(inner)) is not None:
-                found += further
-            case _:
-                return None
-    return found if choice.otherwise else None
-
-
-def _with_ends(choice: ir.If, further: ir.Body) -> ir.If:
-    """The statements at the end of each branch; their comments in the first."""
-    tidied = tuple(replace(one, origin=replace(one.origin, comments=())) for one in further)
-
-    def ended(body: ir.Body, more: ir.Body) -> ir.Body:
-        match body[-1]:
-            case ir.If() as inner:
-                return (*body[:-1], _with_ends(inner, more))
-        return (*body, *more)
-
-    branches = tuple(
-        (condition, ended(body, tidied if at else further)) for at, (condition, body) in enumerate(choice.branches)
-    )
-    return replace(choice, branches=branches, otherwise=ended(choice.otherwise, tidied))
 
 
 def _at_begin(
