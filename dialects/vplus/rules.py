@@ -61,5 +61,4 @@ RULES = Rules(
     percent_limits={"acceleration_percent": (1.0, 100.0), "deceleration_percent": (1.0, 100.0)},
     errors=tables.ERRORS,
     analog=ANALOG,
-    errors_looked_for=frozenset(("division_by_zero", "negative_argument")),
 )

@@ -198,15 +198,14 @@ class Rules:
     list that is written out. first_signal: least number of a signal (0: not told); a smaller one that the program
     works out is a fault. number_marks: what stands before the digits of a number to another base, also in a text
     that is read as a number (longest first, in small letters). leading_numbers: such a text may go on behind its
-    number, and without one it is 0. errors_looked_for: errors of the controller that a handler for everything gets, so
-    that a target whose controller stops at them looks in front. text_decimals: a number with a fraction shows so
-    many decimals in a text, without zeros at the end; 0: six digits in all. text_length: characters that a text
-    variable takes which says no length of its own (0: any). message_numbers, message_texts: of a
-    controller whose messages show constant text only: regular expressions for what names a register of numbers, or
-    any other register, in such a text. last_tool: while the program has set no tool, the place of the robot is told
-    by tool and frame of the last move that named some (else by none). task_instances: starting a task that runs begins
-    another one of its routine (else nothing happens). task_name: how lists of tasks call a motion task
-    of that `{number}` where its own name is not known. exact_types: built-in types with components
+    number, and without one it is 0. text_decimals: a number with a fraction shows so many decimals in a text,
+    without zeros at the end; 0: six digits in all. text_length: characters that a text variable takes which says no
+    length of its own (0: any). message_numbers, message_texts: of a controller whose messages show constant text
+    only: regular expressions for what names a register of numbers, or any other register, in such a text.
+    last_tool: while the program has set no tool, the place of the robot is told by tool and frame of the last move
+    that named some (else by none). task_instances: starting a task that runs begins another one of its routine
+    (else nothing happens). task_name: how lists of tasks call a motion task of that `{number}` where its own name
+    is not known. exact_types: built-in types with components
     have to be equal too where a value is stored or passed. loads_of_tools: a tool has its own load; a load set for all
     moves is the part's, given in the tool, and that of one move is all of it (else there is one load, in the
     flange). load_variables: where it is kept, if not
@@ -248,7 +247,6 @@ class Rules:
     first_signal: int = 0
     number_marks: Mapping[str, int] = field(default_factory=dict)
     leading_numbers: bool = False
-    errors_looked_for: frozenset[str] = frozenset()
     text_decimals: int = 0
     text_length: int = 0
     message_numbers: str = ""

@@ -98,6 +98,48 @@ PAYLOAD = """def main():
   end
 end
 """
+JOINTS = """MODULE k
+  CONST robtarget p:=[[500,150,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    VAR jointtarget j;
+    j:=CalcJointT(p,tool0);
+    MoveAbsJ j,v1000,fine,tool0;
+  ENDPROC
+ENDMODULE
+"""
+ALL_ERRORS = """.PROGRAM main()
+ REACTE trap
+ t = SQRT(-4)
+ REACTE
+ SIGNAL 3
+.END
+.PROGRAM trap()
+ errs = ERROR(-1)
+ RETURNE
+.END
+"""
+RAISED = """ENTRY main
+MODULE m
+    PROCEDURE main()
+        TRAP ERRORS WITH rec
+        RAISE 60
+        TRAP ERRORS OFF
+    END PROCEDURE
+    PROCEDURE rec()
+        TRY NEXT
+    END PROCEDURE
+END MODULE
+"""
+ERROR_NUMBER = """VAR last: INT = 0
+work()
+
+PROCEDURE work()
+    WAIT UNTIL di[4] TIMEOUT 0.1 s ERROR timeout
+ON ERROR timeout
+    IF $error_number = timeout THEN SET do[1] TO ON
+    last = $error_number
+END PROCEDURE
+"""
 
 
 @pytest.mark.parametrize(
@@ -123,6 +165,10 @@ end
             "krl tp urscript vplus inform",
         ),
         (READ_BACK, "krl", KUKA, [("vplus-guarded-stop", 4)], "vplus"),
+        (JOINTS, "rapid", ABB, [("kinematics-lost", 5)], "vplus"),
+        (ALL_ERRORS, "vplus", VIPER, [("error-routine-lost", 2)], "krl rapid tp urscript inform"),
+        (RAISED, "rpl", KUKA, [("error-routine-lost", 4)], "vplus"),
+        (ERROR_NUMBER, "rpl", ABB, [("error-number-lost", 8)], "rapid"),
         (PAYLOAD, "urscript", UR, [("payload-question-lost", 3)], "krl tp vplus inform"),
     ],
 )

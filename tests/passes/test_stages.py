@@ -29,7 +29,6 @@ def test_every_pass_stands_once() -> None:
 
 # Passes that stand in the folder of another stage than the one that runs them, with the reason.
 ELSEWHERE = {
-    "error_routines": "errors, behind settings for the next move: handlers look like ways out of a routine with these",
     "without_shared_references": "routines, before interrupts: what these call gets routines of its own, and tasks",
 }
 

@@ -8,12 +8,10 @@ import pytest
 
 from rpl import ir
 from rpl.passes.capabilities import Motion, SearchResult, SettingRule, Settings, Tasks
-from rpl.passes.legalise.errors.errorroutines import error_routines
 from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.searches.searches import searches
 from rpl.passes.legalise.searches.searchparts import search_parts
-from rpl.passes.legalise.statements.errors import check_errors
 from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 
 from .common import count, nodes
@@ -102,36 +100,6 @@ def test_a_target_that_has_such_settings_keeps_them() -> None:
         )[0]
         is given
     )
-
-
-# ---- error routines
-
-
-def _raising(end: ir.Statement) -> ir.Program:
-    mend = ir.Routine("mend", body=(step(9), assign("a", 1), end))
-    risky = ir.Routine("risky", body=(when(A, ir.Raise(number(3))), step(5)))
-    return program(ir.OnError("mend"), step(1), ir.CallRoutine("risky"), step(2), routines=(mend, risky))
-
-
-@pytest.mark.parametrize("end", [ir.Retry(), ir.TryNext(), ir.Return()], ids=["retry", "next", "return"])
-def test_an_error_routine_as_handlers(end: ir.Statement) -> None:
-    after = same(_raising(end), PLAIN, error_routines)
-    assert not count(after, ir.OnError)
-    same(_raising(end), replace(PLAIN, errors=replace(PLAIN.errors, handlers=False)), error_routines, check_errors)
-
-
-def test_an_error_routine_that_changes_is_named() -> None:
-    (module,) = _raising(ir.Retry()).modules
-    main = replace(module.routines[0], body=(*module.routines[0].body, ir.OnError("other")))
-    given = ir.Program((replace(module, routines=(main, *module.routines[1:])),))
-    after, context = rewritten(given, PLAIN, error_routines)
-    assert [item.code.name for item in context.diagnostics] == ["error-routine-lost"] * 2
-    assert count(after, ir.OnError) == 2
-
-
-def test_switching_off_what_was_never_on_is_nothing() -> None:
-    after = same(program(ir.OnError(None), step(1)), PLAIN, error_routines)
-    assert not count(after, ir.OnError)
 
 
 # ---- searches

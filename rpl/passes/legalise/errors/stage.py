@@ -1,6 +1,6 @@
 """Handlers, raised errors and their numbers; then the source's own routines and data come along (its prelude), because
 errors have their names from it, and what it does where all is known stands in the place of its calls; jumps out of
-handlers become structure. A routine for all errors stays one until the settings of moves are known (places).
+handlers become structure.
 """
 
 from __future__ import annotations
@@ -8,7 +8,6 @@ from __future__ import annotations
 from rpl.passes.legalise.errors.bookkeeping import without_bookkeeping
 from rpl.passes.legalise.errors.declaredvalues import declared_values
 from rpl.passes.legalise.errors.errornumbers import error_numbers
-from rpl.passes.legalise.errors.errorplaces import errors_of_places
 from rpl.passes.legalise.errors.errortexts import error_texts
 from rpl.passes.legalise.errors.interruptplaces import interrupt_places
 from rpl.passes.legalise.errors.knowncalls import known_calls
@@ -25,7 +24,6 @@ STAGE = Stage(
     "errors",
     (
         interrupt_places,
-        errors_of_places,
         error_numbers,
         error_texts,
         link_prelude,

@@ -135,9 +135,6 @@ def raising_of(program: ir.Program) -> Raising:
     for module in program.modules:
         errors = rules_of(module.dialect).errors
         facts._spelled.update(name.lower() for name in errors)
-        catches = any(not one.codes for routine in module.routines for one in routine.handlers)
-        for name in sorted(rules_of(module.dialect).errors_looked_for) if catches else ():
-            facts.caught[name] = _literal(errors[name])
         facts._numbers.update((neutral_name(name), number) for name, number in errors.items())
     scopes = ProgramScope(program)
     routines = list(scopes.routines())
@@ -157,10 +154,6 @@ def raising_of(program: ir.Program) -> Raising:
             if not facts.is_top(routine) and facts.lets_out(routine):
                 facts._out.add(routine.name.lower())
     return facts
-
-
-def _literal(number: int) -> ir.Expression:
-    return ir.IntLiteral(number) if number >= 0 else ir.Unary("-", ir.IntLiteral(-number))
 
 
 def _note(facts: Raising, statement: ir.Statement, scope: Scope) -> None:

@@ -1,12 +1,9 @@
 """Frames, targets and postures, and the settings that hold for the next move only, which decide where it ends. They
-stand behind errors, because places of the prelude are places too; before paths, because a way needs its ends. A routine
-for all errors becomes handlers behind those settings: a handler passes errors on where no such routine is set, and that
-looks like a way out of a routine with what it has set so far, so that moves behind its calls would find either.
+stand behind errors, because places of the prelude are places too; before paths, because a way needs its ends.
 """
 
 from __future__ import annotations
 
-from rpl.passes.legalise.errors.errorroutines import error_routines
 from rpl.passes.legalise.places.arcpoints import whole_arc_points
 from rpl.passes.legalise.places.circles import circle_rules
 from rpl.passes.legalise.places.destinations import destinations
@@ -23,7 +20,6 @@ from rpl.passes.legalise.places.postures.askedpostures import asked_postures
 from rpl.passes.legalise.places.postures.configurations import configurations
 from rpl.passes.legalise.places.postures.freepostures import free_postures
 from rpl.passes.legalise.places.postures.jointgoals import joint_goals
-from rpl.passes.legalise.places.postures.knownjoints import known_joints
 from rpl.passes.legalise.places.postures.nearjoints import near_joints
 from rpl.passes.legalise.places.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.places.postures.seenjoints import seen_joints
@@ -45,10 +41,8 @@ STAGE = Stage(
         move_times,
         turning_times,
         joint_speeds,
-        error_routines,
         seen_joints,
         near_joints,
-        known_joints,
         asked_postures,
         joint_goals,
         partial_places,
@@ -62,7 +56,7 @@ STAGE = Stage(
         told_turns,
     ),
     Clause(
-        statements="OnError SetForNextMove",
+        statements="SetForNextMove",
         system="posture_shoulder",
     ),
 )

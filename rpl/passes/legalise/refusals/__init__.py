@@ -16,6 +16,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.refusals.arm import ARM
+from rpl.passes.legalise.refusals.errors import ERRORS, serves_all_errors
 from rpl.passes.legalise.refusals.motion import MOTION
 from rpl.passes.legalise.refusals.routines import ROUTINES
 from rpl.passes.legalise.refusals.rows import Asked, Refusal
@@ -37,7 +38,8 @@ TUNING = code(
     "set the same on the target's controller where it has it (payload, collision guard)",
 )
 
-REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM, *SETTINGS, *ROUTINES, *VALUES, *TEXTS)
+NOT_SET = "the routine for all errors is refused where it is set"
+REFUSALS: tuple[Refusal, ...] = (*TASKS, *MOTION, *ARM, *SETTINGS, *ROUTINES, *VALUES, *TEXTS, *ERRORS)
 
 
 @legalising()
@@ -50,14 +52,20 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
     single = "Critical" not in context.capabilities.statements and _single(program)
     report = context.diagnostics.report
     without = not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
+    routines = serves_all_errors(program, context.capabilities.statements)
     if without:
         begun = [n for n in walk(*program.modules) if isinstance(n, ir.DeclareInterrupt | ir.ConnectInterrupt)]
         program = without_actions(program, begun) if begun else program
+    if not routines:
+        set_by = [node for node in walk(*program.modules) if isinstance(node, ir.OnError)]
+        program = without_actions(program, set_by, NOT_SET) if set_by else program
 
     def changed(statement: ir.Statement, asked: Asked) -> ir.Body | None:
         match statement:
             case ir.ControlInterrupt() | ir.OrderInterrupt() if without:
                 return (left_out(statement, REFUSED),)
+            case ir.OnError(routine=None) if not routines:
+                return (left_out(statement, NOT_SET),)
             case ir.Critical() if single:
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
             case ir.Critical(enter=False) if "Critical" not in context.capabilities.statements:

@@ -18,7 +18,7 @@ KINEMATICS = code(
     "kinematics-lost",
     Severity.LOSS,
     "the target's programs cannot {what}",
-    "teach the joints there, or let the move itself find them; a constant place is worked out when the arm is given",
+    "teach the joints there, or let the move itself find them",
     stops=True,
 )
 _SOLVED = {

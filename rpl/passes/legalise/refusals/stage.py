@@ -11,7 +11,7 @@ STAGE = Stage(
     "refusals",
     (refuse,),
     Clause(
-        statements="ConnectInterrupt ControlInterrupt DeclareInterrupt",
+        statements="ConnectInterrupt ControlInterrupt DeclareInterrupt OnError",
         further=frozenset(("search of a move",)),
     ),
 )

@@ -1,7 +1,8 @@
-"""What is left of an interrupt that is refused where it is declared: its action never runs.
+"""What is left of an interrupt that is refused where it is declared, and of a routine for all errors that is refused
+where it is set: its action never runs.
 
-The statements of its routine that only make sense in one (stop the motion, let it go on, leave a level) are remarks
-there, so that the refusal stands once.
+The statements of its routine that only make sense in one (stop the motion, let it go on, leave a level, go on behind
+what has failed) are remarks there, so that the refusal stands once.
 """
 
 from __future__ import annotations
@@ -19,12 +20,17 @@ from rpl.passes.legalise.rewriting.stopping import left_out
 __all__ = ["REFUSED", "without_actions"]
 
 REFUSED = "its interrupt is refused where it is declared"
-_OF_MOTION = (ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.ResumeLevel)
+_ONLY_THERE = (ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.ResumeLevel, ir.TryNext, ir.Retry)
+_WHICH = ("interrupt_number", "error_number")
 
 
-def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt | ir.ConnectInterrupt]) -> ir.Program:
-    """The program with remarks in the routines that only these interrupts (as they stand in it) would run."""
-    actions = [one if isinstance(one, ir.ConnectInterrupt) else one.action for one in refused]
+def without_actions(
+    program: ir.Program,
+    refused: Collection[ir.DeclareInterrupt | ir.ConnectInterrupt | ir.OnError],
+    why: str = REFUSED,
+) -> ir.Program:
+    """The program with remarks in the routines that only these statements (as they stand in it) would run."""
+    actions = [one.action if isinstance(one, ir.DeclareInterrupt) else one for one in refused]
     dead = called_below(program, {_called(one) for one in actions})
     gone = {id(one) for one in actions}
     while dead:
@@ -37,8 +43,8 @@ def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt
         dead -= called_below(program, set(dead & used))
 
     def change(statement: ir.Statement) -> ir.Body:
-        if isinstance(statement, _OF_MOTION) or any(map(_asks, children(statement))):
-            return (left_out(statement, REFUSED),)
+        if isinstance(statement, _ONLY_THERE) or any(map(_asks, children(statement))):
+            return (left_out(statement, why),)
         return (inside(statement, lambda body: map_body(body, change)),)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
@@ -50,8 +56,8 @@ def without_actions(program: ir.Program, refused: Collection[ir.DeclareInterrupt
 
 
 def _asks(expression: ir.Expression) -> bool:
-    """Does it ask which interrupt has come?"""
-    return any(isinstance(node, ir.System) and node.name == "interrupt_number" for node in walk(expression))
+    """Does it ask which interrupt has come, or which error?"""
+    return any(isinstance(one, ir.System) and one.name in _WHICH for one in walk(expression))
 
 
 def _called(node: object) -> str:
