@@ -54,17 +54,20 @@ def queued_waits(program: ir.Program, context: Context) -> ir.Program:
     if not source or target or not any(_queues(node) for node in walk(*program.modules)):
         return program
     called = called_names(routine for module in program.modules for routine in module.routines)
+    timed = any(map(_takes_a_time, walk(*program.modules)))
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        worker = _Queued(context, editor)
+        worker = _Queued(context, editor, timed)
         return edit_bodies(routine, partial(worker.body, behind=routine.name.lower() not in called))
 
     return edit_routines(program, context, work)
 
 
 class _Queued:
-    def __init__(self, context: Context, editor: Editor) -> None:
-        self.context, self.editor = context, editor
+    """timed: does the program take a time anywhere, so that a pause in another place would be seen?"""
+
+    def __init__(self, context: Context, editor: Editor, timed: bool) -> None:
+        self.context, self.editor, self.timed = context, editor, timed
 
     def body(self, body: ir.Body, behind: bool) -> ir.Body:
         """`behind`: what comes behind the body waits for the robot."""
@@ -89,7 +92,9 @@ class _Queued:
     def pause(self, wait: ir.Wait, steps: ir.Body, rest: ir.Body, behind: bool) -> Sequence[ir.Statement]:
         """The wait, behind the steps that the program does beside it."""
         if not _waits(rest, behind):
-            if any(map(_takes_a_time, walk(*rest))):
+            if self.timed and not any(isinstance(one, _WAITING) for one in rest):
+                return (stopped(wait, PAUSED_TIMED, self.context), *steps)
+            if any(_takes_a_time(node) or (self.timed and _calls(node)) for node in walk(*rest)):
                 return (stopped(wait, PAUSED_TIMED, self.context), *steps)
             if rest:
                 self.context.diagnostics.report(PAUSED_FIRST, wait.origin, line=rest[0].origin.line)
@@ -102,6 +107,10 @@ class _Queued:
             return (stands, *steps, last)
         kept = self.editor.temporary("pause", ir.RealType())
         return (stands, ir.Assign(kept, wait.time, origin=tidy(wait.origin)), *steps, replace(last, time=kept))
+
+
+def _calls(node: object) -> bool:
+    return isinstance(node, ir.CallRoutine | ir.Call)
 
 
 def _queues(node: object) -> bool:
