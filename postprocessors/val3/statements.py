@@ -228,12 +228,12 @@ class Statements:
             if value is None or argument.name is not None or argument.if_present is not None:
                 raise CannotSayError("an argument cannot be left out here")
             by_reference = at < len(parameters) and parameters[at].mode == "reference"
-            if by_reference:
+            if isinstance(value, ir.Signal):
+                given.append(e.store.signal(value.name or "", value.kind))
+            elif by_reference:
                 if e.is_point(value) and e.father(value) != "world":
                     raise CannotSayError("a point of a frame that the program gets as a reference")
                 given.append(e.storage(value))
-            elif isinstance(value, ir.Signal):
-                given.append(e.store.signal(value.name or "", value.kind))
             elif e.is_point(value):
                 given.append(self.point_argument(value, before, at))
             else:

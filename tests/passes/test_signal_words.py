@@ -72,3 +72,10 @@ def test_a_number_that_is_worked_out_stays_one(more: str) -> None:
     journey = there_and_back({"job.script": PASSED.format(more=more)}, "urscript", "rapid")
     assert ("VAR signaldo number" in journey.text) == ("n = 2" not in more)
     assert journey.prove("job").equal
+
+
+def test_signals_are_passed_in_val3_too() -> None:
+    journey = there_and_back({"job.script": PASSED.format(more="")}, "urscript", "val3")
+    assert 'name="number" type="dio"' in journey.text
+    assert "call expect(DOOR)" in journey.text and "call shine(LAMP,0.2)" in journey.text
+    assert journey.prove("job").equal
