@@ -4,6 +4,7 @@ Behind it a program says the same in neutral words.
 
 from __future__ import annotations
 
+from rpl.passes.legalise.source.countedloops import counted_loops
 from rpl.passes.legalise.source.cyclicflags import cyclic_flags
 from rpl.passes.legalise.source.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.source.fixeddata import fixed_data
@@ -73,6 +74,7 @@ STAGE = Stage(
         load_variables,
         whole_times,
         known_limits,
+        counted_loops,
         timed_waits,
         same_units,
         cyclic_flags,

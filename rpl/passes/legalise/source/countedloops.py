@@ -1,0 +1,199 @@
+"""Loops that count by hand: languages without a counting loop (URScript) set a number in front of a `while`, compare it
+and add to it in the end. Where nothing else looks at the number, that is a counting loop with a counter of its own.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from rpl import ir
+from rpl.ir.walk import bodies, walk
+from rpl.passes.fold import constant
+from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.usage import usage_of
+from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.rewrite import changed, rewrite_parts
+from rpl.passes.scope import ProgramScope, Scope
+
+__all__ = ["counted_loops"]
+
+
+def _no_use(context: Context) -> bool:
+    return not context.foreign or "For" not in context.capabilities.statements
+
+
+@legalising(unless=_no_use, sees=("While",))
+def counted_loops(program: ir.Program, context: Context) -> ir.Program:
+    """Only for targets with counting loops. The number is whole, at each pass by 1 more, and named nowhere but in such
+    loops; the end of the counting is the same in all passes, and the first pass surely runs."""
+    worker = _Loops(program)
+    return worker.program() if worker.counters else program
+
+
+@dataclass(frozen=True, slots=True)
+class _Loop:
+    """`counter := start; WHILE counter < stop; ... counter := counter + 1`; last: the number of the last pass."""
+
+    name: str
+    start: ir.Expression
+    last: ir.Expression
+    loop: ir.While
+
+
+class _Loops:
+    def __init__(self, program: ir.Program) -> None:
+        self.source = program
+        self.scopes = ProgramScope(program)
+        usage = usage_of(program)
+        self.assigned, self.otherwise = usage.assigned, usage.otherwise
+        mentions: Counter[int] = Counter()
+        counted: Counter[int] = Counter()
+        for module in program.modules:
+            mentions.update(self.mentioned(module.declarations, self.scopes.module(module)))
+        for module, routine in self.scopes.routines():
+            scope = self.scopes.routine(module, routine)
+            mentions.update(self.mentioned((routine,), scope))
+            for body in _blocks(routine):
+                for first, loop in pairwise(body):
+                    found = self.loop(first, loop, scope)
+                    if found is not None:
+                        key = self.variable(found.name, scope)
+                        inside = self.mentioned((first, loop), scope)
+                        counted[key] += sum(one == key for one in inside)
+        self.counters = {key for key in counted if key and counted[key] == mentions[key]}
+        """Identities of the declarations of the numbers."""
+
+    def variable(self, name: str, scope: Scope) -> int:
+        """The variable of a name that holds nothing from one run to the next and is never passed by reference; 0 for
+        anything else."""
+        symbol = scope.value(name)
+        declared = None if symbol is None else symbol.declaration
+        plain = isinstance(declared, ir.Variable) and declared.storage == "variable"
+        return id(declared) if plain and name.lower() not in self.otherwise else 0
+
+    def mentioned(self, nodes: Sequence[object], scope: Scope) -> list[int]:
+        return [self.variable(name, scope) for node in walk(*nodes) for name in _mentioned(node)]
+
+    def loop(self, first: ir.Statement, loop: ir.Statement, scope: Scope) -> _Loop | None:
+        match first, loop:
+            case (
+                ir.Assign(target=ir.Name(id=name), value=start),
+                ir.While(condition=ir.Binary(op="<" | "<=" as op, left=ir.Name(id=left), right=stop), body=body),
+            ) if name.lower() == left.lower() and body:
+                pass
+            case _:
+                return None
+        begin, end = _whole(start, scope), _whole(stop, scope)
+        if begin is None or end is None or not self.is_fixed(stop):
+            return None
+        steps = [one for one in walk(*body) if isinstance(one, ir.Assign) and _is_named(one.target, name)]
+        ways = any(_is_in_the_way(one, name) for one in walk(*body))
+        last = body[-1]
+        if ways or steps != [last] or not isinstance(last, ir.Assign) or not _adds_one(last.value, name):
+            return None
+        if begin > (end if op == "<=" else end - 1):
+            return None
+        return _Loop(name, start, stop if op == "<=" else _one_less(stop), loop)
+
+    def is_fixed(self, stop: ir.Expression) -> bool:
+        return not any(isinstance(one, ir.Name) and one.id.lower() in self.assigned for one in walk(stop))
+
+    # ---- what it makes of the program
+
+    def program(self) -> ir.Program:
+        modules = []
+        for module in self.source.modules:
+            routines = tuple(self.routine(module, one) for one in module.routines)
+            modules.append(changed(module, declarations=self.kept(module.declarations), routines=routines))
+        return changed(self.source, modules=tuple(modules))
+
+    def kept(self, declarations: tuple[ir.Declaration, ...]) -> tuple[ir.Declaration, ...]:
+        return tuple(one for one in declarations if id(one) not in self.counters)
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        scope = self.scopes.routine(module, routine)
+
+        def body(statements: ir.Body) -> ir.Body:
+            done: list[ir.Statement] = []
+            at = 0
+            while at < len(statements):
+                found = self.loop(statements[at], statements[at + 1], scope) if at + 1 < len(statements) else None
+                if found is not None and self.variable(found.name, scope) in self.counters:
+                    done.append(self.counting(statements[at], found, body))
+                    at += 2
+                else:
+                    done.append(rewrite_parts(statements[at], lambda expression: expression, body))
+                    at += 1
+            return tuple(done)
+
+        return replace(edit_bodies(routine, body), declarations=self.kept(routine.declarations))
+
+    def counting(self, first: ir.Statement, found: _Loop, body: Callable[[ir.Body], ir.Body]) -> ir.For:
+        loop = found.loop
+        comments = (*first.origin.comments, *loop.origin.comments)
+        inner = loop.body[:-1]
+        left = loop.body[-1].origin
+        if left.comments:
+            inner = (*inner, ir.Nothing(origin=left))
+        origin = replace(loop.origin, comments=comments)
+        return ir.For(found.name, found.start, found.last, None, body(inner), scoped=True, origin=origin)
+
+
+def _blocks(routine: ir.Routine) -> Iterator[ir.Body]:
+    """Every body of the routine, at any depth."""
+    for whole in bodies(routine):
+        found = [whole]
+
+        def look(body: ir.Body, found: list[ir.Body] = found) -> ir.Body:
+            found.append(body)
+            for one in body:
+                rewrite_parts(one, lambda expression: expression, look)
+            return body
+
+        for one in whole:
+            rewrite_parts(one, lambda expression: expression, look)
+        yield from found
+
+
+def _mentioned(node: object) -> Iterator[str]:
+    match node:
+        case ir.Name(id=name):
+            yield name.lower()
+        case ir.For(counter=name):
+            yield name.lower()
+
+
+def _is_named(target: ir.Expression, name: str) -> bool:
+    return any(isinstance(one, ir.Name) and one.id.lower() == name.lower() for one in walk(target))
+
+
+def _is_in_the_way(node: object, name: str) -> bool:
+    """Does it leave the way to the end of the pass, or count with the same number?"""
+    match node:
+        case ir.For(counter=counter):
+            return counter.lower() == name.lower()
+    return isinstance(node, ir.NextPass | ir.Label | ir.Goto)
+
+
+def _adds_one(value: ir.Expression, name: str) -> bool:
+    match value:
+        case ir.Binary(op="+", left=ir.Name(id=left), right=ir.IntLiteral(value=1)):
+            return left.lower() == name.lower()
+    return False
+
+
+def _whole(value: ir.Expression, scope: Scope) -> int | None:
+    known = constant(value, scope)
+    if isinstance(known, bool) or not isinstance(known, int | float) or known != int(known):
+        return None
+    return int(known)
+
+
+def _one_less(stop: ir.Expression) -> ir.Expression:
+    if isinstance(stop, ir.IntLiteral):
+        return ir.IntLiteral(stop.value - 1, origin=stop.origin)
+    return ir.Binary("-", stop, ir.IntLiteral(1), origin=stop.origin)
