@@ -19,7 +19,7 @@ from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
 from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf, urdf_inertias
 from rpl.emulator.inertias import ArmInertias, arm_inertias
 from rpl.emulator.mechanismfile import NEUTRAL_PULSES, Mechanism, checked_together, pulses_of
-from rpl.emulator.postures import has_sides, in_posture, same_posture
+from rpl.emulator.postures import has_sides, in_posture, same_posture, sides
 from rpl.emulator.robotfile import (
     Kind,
     RobotError,
@@ -29,7 +29,7 @@ from rpl.emulator.robotfile import (
     robot_names,
     robot_summaries,
 )
-from rpl.emulator.rotations import FloatArray
+from rpl.emulator.rotations import FloatArray, IntArray
 from rpl.emulator.rounding import NOISE, whole_turns
 
 __all__ = [
@@ -304,6 +304,10 @@ class RobotModel:
     def same_posture(self, joints: FloatArray, other: "RobotModel") -> FloatArray:
         """About the joints (n,) of another arm in the posture and the turns of `joints` (rpl.emulator.postures)."""
         return same_posture(self, joints, other)
+
+    def sides(self, joints: FloatArray) -> IntArray:
+        """Shoulder, elbow and wrist (..., 3) of joints (..., n), 0 or 1 (rpl.emulator.postures)."""
+        return sides(self, joints)
 
     @property
     def has_sides(self) -> bool:

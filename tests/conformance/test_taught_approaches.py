@@ -225,6 +225,9 @@ def test_an_approach_follows_its_point_or_is_named(name: str, target: str) -> No
     if language == target:
         pytest.skip("the same language is written as it is")
     journey = there_and_back(files_of(language, lines), language, target, ARMS[language])
+    if name == "joints of a place" and target in stays:
+        assert journey.losses  # neither is asked for joints in the run: refused, with a stop
+        return
     assert bool(named(journey)) == (target in stays) and not journey.losses
     if target in stays:
         points = {"krl": ("bTable" if "bTable" in lines else "xPick"), "rapid": "pPick", "rpl": "conveyor"}

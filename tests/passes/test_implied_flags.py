@@ -19,7 +19,11 @@ WRISTS = """/PROG  WRISTS
 /MN
    1:  PR[1]=LPOS ;
    2:  PR[1]=PR[1]-PR[1] ;
-   3:  PR[1,1]=350 ;
+   3:  R[8]=0 ;
+   3:  IF DI[9]=OFF,JMP LBL[7] ;
+   3:  R[8]=1 ;
+   3:  LBL[7] ;
+   3:  PR[1,1]=350+R[8] ;
    4:  UFRAME[R[1]]=PR[1] ;
    5:  UFRAME_NUM=R[1] ;
    6:J P[1] 50% FINE    ;

@@ -64,7 +64,7 @@ def test_each_axis_comes_to_its_turn(way: tuple[str, ...], target: str) -> None:
 
 def test_places_in_the_only_turn_that_can_be_stay_places() -> None:
     trip = journey((HOME, "J P[1] 100% FINE", "J P[3] 100% FINE", "  LBL[1]", *FRAMES, "J P[1] 100% FINE"), "vplus")
-    assert trip.text.count(":p1") == 2 and ":p3" in trip.text
+    assert trip.text.count("MOVE p1") == 2 and "MOVE p3" in trip.text
     assert "turn-not-told" not in codes(trip.found)
 
 

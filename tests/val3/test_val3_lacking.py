@@ -109,7 +109,7 @@ def test_taught_points_of_programs_are_data_on_their_frame_with_their_posture() 
     data = next(file.data.decode("utf-8-sig") for file in journey.written.files if file.path.endswith(".dtx"))
     row = r'<Data name="(p1\w*)".*\n *<Value key="0" x="(\d+)".* shoulder="(\w+)".*fatherId="(.*?)"'
     found = sorted(re.findall(row, data))
-    assert found == [("p1", "500", "righty", "uframe[1]"), ("p1_two", "550", "righty", "uframe[1]")]
+    assert found == [("p1", "500", "righty", "frame1[0]"), ("p1_two", "550", "righty", "frame1[0]")]
     assert not re.search(r"p1\w*\.trsf=", journey.text)
 
 

@@ -8,7 +8,7 @@ from typing import get_args
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.facts.usage import each_expression
-from rpl.passes.legalise.places.postures.configurations import FLAG_ACCESS
+from rpl.passes.legalise.places.postures.reports import FLAG_ACCESS
 from rpl.passes.legalise.refusals.rows import Asked, Found, Refusal
 from rpl.passes.typing import type_of
 

@@ -30,7 +30,7 @@ def _no_use(context: Context) -> bool:
 def counted_loops(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with counting loops. The number is whole, at each pass by 1 more, and named nowhere but in such
     loops; the end of the counting is the same in all passes, and the first pass surely runs."""
-    worker = _Loops(program)
+    worker = _Loops(program, bool(context.capabilities.storage.banks))
     return worker.program() if worker.counters else program
 
 
@@ -45,8 +45,10 @@ class _Loop:
 
 
 class _Loops:
-    def __init__(self, program: ir.Program) -> None:
-        self.source = program
+    """numbered: constants have no names in the target, so that the last number is written out."""
+
+    def __init__(self, program: ir.Program, numbered: bool) -> None:
+        self.source, self.numbered = program, numbered
         self.scopes = ProgramScope(program)
         usage = usage_of(program)
         self.assigned, self.otherwise = usage.assigned, usage.otherwise
@@ -97,7 +99,11 @@ class _Loops:
             return None
         if begin > (end if op == "<=" else end - 1):
             return None
-        return _Loop(name, start, stop if op == "<=" else _one_less(stop), loop)
+        if op == "<" and self.numbered:
+            stop = ir.IntLiteral(end - 1, origin=stop.origin)
+        elif op == "<":
+            stop = _one_less(stop)
+        return _Loop(name, start, stop, loop)
 
     def is_fixed(self, stop: ir.Expression) -> bool:
         return not any(isinstance(one, ir.Name) and one.id.lower() in self.assigned for one in walk(stop))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from rpl import ir, registry
-from rpl.diagnostics import Diagnostics, Severity, code
+from rpl.diagnostics import Diagnostics
 from rpl.ir.columns import Stretch, as_float
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import PlaceRule, Postures
@@ -23,6 +23,13 @@ from rpl.passes.legalise.places.postures.families import changed_posture, differ
 from rpl.passes.legalise.places.postures.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.places.postures.givenjoints import joint_values, with_joints
 from rpl.passes.legalise.places.postures.impliedflags import Known, implied_flags
+from rpl.passes.legalise.places.postures.reports import (
+    FLAG_ACCESS,
+    JOINTS_LOST,
+    NOT_CONVERTED,
+    POSTURE_CHANGED,
+    WITHOUT_TURNS,
+)
 from rpl.passes.legalise.places.postures.rowpostures import (
     all_there,
     degrees_in_rows,
@@ -33,6 +40,7 @@ from rpl.passes.legalise.places.postures.rowpostures import (
     stretch_of_matrix,
 )
 from rpl.passes.legalise.places.postures.together import Asked, Found, asked_for, found_together
+from rpl.passes.legalise.places.postures.writtenplaces import check, inserted, is_taught, may_be_point
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -44,36 +52,7 @@ from rpl.source import NOWHERE, Origin
 if TYPE_CHECKING:
     from rpl.emulator.configuration import Notation
 
-NOT_CONVERTED = code(
-    "configuration-not-converted",
-    Severity.WARNING,
-    "the arm configuration is not converted ({reason}); the controller takes the nearest",
-    "name the arm with --robot, and give moves constant tools and frames",
-)
-WITHOUT_TURNS = code(
-    "configuration-without-turns",
-    Severity.WARNING,
-    "{reason}, so that the turns of the axes are not known; the posture of the arm is written",
-    "the controller takes the shortest way to it",
-)
-POSTURE_CHANGED = code(
-    "posture-changed",
-    Severity.WARNING,
-    "the arm {arm} does not reach this {what} in the posture that it was taught in: {before} becomes {after}",
-    "look at the ways to and from it: the arm goes over, and its cables with it; or move the place",
-)
-JOINTS_LOST = code(
-    "joints-not-converted", Severity.LOSS, "these joint values are not constant; they mean another posture on {arm}"
-)
-FLAG_ACCESS = code(
-    "configuration-field",
-    Severity.LOSS,
-    "{name} is part of the arm configuration, which the target writes otherwise",
-    "look at the joints instead, or keep a number beside the place that says which posture it has",
-    stops=True,
-)
-
-_AXES, _EXTERNAL = tuple(ir.COMPONENTS[ir.AxesType]), tuple(ir.COMPONENTS[ir.ExternalType])
+_AXES = tuple(ir.COMPONENTS[ir.AxesType])
 _CHECKS = ("joint_configuration_check", "path_configuration_check")
 
 
@@ -162,7 +141,7 @@ class _Configurations(Rewriter):
     def asked_in(self, nodes: tuple[object, ...]) -> Iterator[tuple[Notation, Asked]]:
         for node in walk(*nodes):
             uses = self.uses.found.get(id(node)) if isinstance(node, ir.Aggregate) else None
-            type = self.type_of(node) if uses and isinstance(node, ir.Aggregate) and _may_be_point(node) else None
+            type = self.type_of(node) if uses and isinstance(node, ir.Aggregate) and may_be_point(node) else None
             if not isinstance(type, ir.TargetType) or not isinstance(node, ir.Aggregate) or not uses:
                 continue
             notation, value = _notation(type.notation), constant(node, self.scope, None)
@@ -183,7 +162,7 @@ class _Configurations(Rewriter):
         joint, path = _CHECKS
         wanted = [path] if self.foreign and not known.get(path, False) else []
         wanted += [joint] if self.nearest and not self.exact else []
-        return tuple(_check(name, False) for name in sorted(wanted) if self.can_set(name))
+        return tuple(check(name, False) for name in sorted(wanted) if self.can_set(name))
 
     def can_set(self, name: str) -> bool:
         return name in self.context.capabilities.system_variables
@@ -221,7 +200,7 @@ class _Configurations(Rewriter):
         mixed = self.trial is not None and self.trial.exact
         if not mixed or not self.can_set(_CHECKS[0]):
             return done
-        return [_check(_CHECKS[0], False), *done, _check(_CHECKS[0], True)]
+        return [check(_CHECKS[0], False), *done, check(_CHECKS[0], True)]
 
     def entries(self, program: ir.Program) -> set[str]:
         if program.entry:
@@ -369,7 +348,7 @@ class _Configurations(Rewriter):
                 if isinstance(self.type_of(base), ir.JointsType | ir.AxesType):
                     self.single_axis(self.at(expression))
             case ir.Aggregate():
-                type = self.type_of(expression) if _may_be_point(expression) else None
+                type = self.type_of(expression) if may_be_point(expression) else None
                 if isinstance(type, ir.TargetType):
                     return self.target(expression, type)
                 if isinstance(type, ir.JointsType) and self.other_arm:
@@ -433,7 +412,7 @@ class _Configurations(Rewriter):
         if not self.flat:
             word = type_word(ir.ConfigType(self.target_notation))
             extra = [("conf", ir.Aggregate(tuple(made), type_name=word))]
-        return _inserted(entries, extra)
+        return inserted(entries, extra)
 
     def with_copy(
         self, entries: list[tuple[str, ir.Expression]], base: ir.Expression
@@ -441,13 +420,13 @@ class _Configurations(Rewriter):
         extra: list[tuple[str | None, ir.Expression]] = [("conf", ir.Field(base, "conf"))]
         if self.flat:
             extra = [(name, ir.Field(base, name)) for name in self.fields]
-        return _inserted(entries, extra)
+        return inserted(entries, extra)
 
     def refused(self, found: _Refused, expression: ir.Aggregate, had: bool) -> None:
         uses = self.uses.found.get(id(expression), set())
         if found.fatal and self.to_arm is not None:
             self.context.not_reached(self.at(expression), "target", found.reason)
-        elif had and (any(use.joint for use in uses) or (not uses and _is_taught(expression))):
+        elif had and (any(use.joint for use in uses) or (not uses and is_taught(expression))):
             self.context.diagnostics.report(NOT_CONVERTED, self.at(expression), reason=found.reason)
 
     def converted(self, expression: ir.Aggregate, had: bool) -> dict[str, int] | _Refused:
@@ -602,36 +581,6 @@ class _Configurations(Rewriter):
             return super().expression(expression)
         new = {name: real(float(value)) for name, value in zip(_AXES, found, strict=False)}
         return with_joints(expression, new, self.named(expression, ir.JointsType()))
-
-
-def _may_be_point(expression: ir.Aggregate) -> bool:
-    word = expression.type_name
-    return word is None or word.startswith(("target", "joints"))
-
-
-def _check(name: str, value: bool) -> ir.Assign:
-    return ir.Assign(ir.System(name), ir.BoolLiteral(value))
-
-
-def _inserted(
-    entries: list[tuple[str, ir.Expression]], extra: list[tuple[str | None, ir.Expression]]
-) -> tuple[tuple[str | None, ir.Expression], ...]:
-    at = next((i for i, (name, _) in enumerate(entries) if name == "ext" or name in _EXTERNAL), len(entries))
-    return (*entries[:at], *extra, *entries[at:])
-
-
-def _is_taught(expression: ir.Aggregate) -> bool:
-    """A target that only serves as a placeholder has no posture worth a report."""
-
-    def numbers(value: ir.Expression) -> list[float]:
-        match value:
-            case ir.Aggregate(entries=entries):
-                return [number for _, one in entries for number in numbers(one)]
-            case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
-                return [float(number)]
-        return []
-
-    return any(number not in (0.0, 1.0) and abs(number) < 9e8 for number in numbers(expression))
 
 
 def _flags_of(target: Target, notation: Notation) -> dict[str, int]:

@@ -105,14 +105,12 @@ def nearest_by_name(arm: Any, other: Any, flanges: Any, joints: Any) -> tuple[An
     of the same names where this arm has one, and nothing else is as near but for rounding."""
     import numpy as np
 
-    from rpl.emulator.postures import sides
-
     unknown = np.isnan(joints[:, 0])  # this arm does not come there: any posture of the other one is as good
     near = np.where(unknown[:, None], other.home, arm.same_posture(joints, other))
     found = other.inverse_batch(flanges, near)
     choices = other.nearest_turn(found.joints, near[:, None])
     away = np.abs(choices - near[:, None])
-    alike = unknown[:, None] | (sides(other, found.joints) == sides(arm, joints)[:, None]).all(axis=-1)
+    alike = unknown[:, None] | (other.sides(found.joints) == arm.sides(joints)[:, None]).all(axis=-1)
     slack = 1e-6  # as limits have it
     with np.errstate(invalid="ignore"):
         inside = ((choices >= other.limits[:, 0] - slack) & (choices <= other.limits[:, 1] + slack)).all(axis=-1)

@@ -181,6 +181,8 @@ class _Moves(Forward[State]):
             if summed:
                 return replace(move, target=ir.Builtin("element_sum", (move.target, shift.way)))
             return self.along(move, move.target, shift.way)
+        if summed:  # it knows no products of places
+            return None
         pose = ir.Builtin("pose_of", (shift.way,))
         return replace(move, frame=pose if frame is None else ir.Binary(":", frame, pose))
 
