@@ -178,11 +178,11 @@ def _is_named(target: ir.Expression, name: str) -> bool:
 
 
 def _is_in_the_way(node: object, name: str) -> bool:
-    """Does it leave the way to the end of the pass, or count with the same number?"""
+    """Does it leave the way to the end of the pass, look at the number at another time, or count with it too?"""
     match node:
         case ir.For(counter=counter):
             return counter.lower() == name.lower()
-    return isinstance(node, ir.NextPass | ir.Label | ir.Goto)
+    return isinstance(node, ir.NextPass | ir.Label | ir.Goto | ir.DeclareInterrupt | ir.Trigger | ir.DefineTrigger)
 
 
 def _adds_one(value: ir.Expression, name: str) -> bool:

@@ -4,7 +4,6 @@ way to the wait has set the variable to the same number. A variable that nothing
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import replace
 
 from rpl import ir
@@ -13,6 +12,7 @@ from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.heldvalues import Held, HeldValues, KnownData
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -47,7 +47,7 @@ def known_limits(program: ir.Program, context: Context) -> ir.Program:
 
         return edit_bodies(routine, body)
 
-    return _without_unread(edit_routines(program, context, work), names)
+    return without_unread(edit_routines(program, context, work), names)
 
 
 def _seconds(limit: ir.Expression | None, held: Held, scope: Scope) -> ir.Expression | None:
@@ -57,32 +57,6 @@ def _seconds(limit: ir.Expression | None, held: Held, scope: Scope) -> ir.Expres
     known = rewrite(limit, lambda node: held.get(node.id.lower(), node) if isinstance(node, ir.Name) else node)
     found = constant_number(known, scope)
     return None if found is None else ir.RealLiteral(found, origin=limit.origin)
-
-
-def _without_unread(program: ir.Program, names: set[str]) -> ir.Program:
-    """Without those of the variables that the program only sets to plain numbers."""
-    used, noted = Counter[str](), Counter[str]()
-    for node in walk(*program.modules):
-        match node:
-            case ir.Name(id=name):
-                used[name.lower()] += 1
-            case ir.Assign(target=ir.Name(id=name), value=ir.IntLiteral() | ir.RealLiteral()):
-                noted[name.lower()] += 1
-    gone = {name for name in names if used[name] == noted[name]}
-    if not gone:
-        return program
-
-    def change(node: object) -> object:
-        match node:
-            case ir.Assign(target=ir.Name(id=name), origin=origin) if name.lower() in gone:
-                return ir.Nothing(origin=origin) if origin.comments else ()
-        return node
-
-    modules = []
-    for module in program.modules:
-        kept = [one for one in module.declarations if not (isinstance(one, ir.Variable) and one.name.lower() in gone)]
-        modules.append(rewrite(replace(module, declarations=tuple(kept)), change))
-    return replace(program, modules=tuple(modules))
 
 
 __all__ = ["known_limits"]

@@ -14,9 +14,10 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.capabilities import PlaceRule, Places
-from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.forward import Forward, beside, started
-from rpl.passes.legalise.facts.usage import assigned_below, base_name, called_below, usage_of
+from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, called_below, usage_of
+from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
@@ -30,8 +31,9 @@ _KNOWN_OF_NONE: State = {}
 
 @legalising(unless=lambda context: not context.foreign, sees=("function inverse", "function element_sum"))
 def known_shifts(program: ir.Program, context: Context) -> ir.Program:
-    """Not in the program's own language, which has an instruction for it. A shift that nothing reads any more goes."""
-    shifts = _shifts(program)
+    """Not in the program's own language, which has an instruction for it. Only shifts that the reader keeps for the
+    controller are looked at: they begin as none. One that nothing reads any more goes."""
+    shifts = _shifts(program) & {name.lower() for name in rules_of(context.source).settings_data}
     straight = any(isinstance(node, ir.Assign) and _turns_nothing(node.value) for node in walk(*program.modules))
     if not shifts and not straight:
         return program
@@ -46,7 +48,7 @@ def known_shifts(program: ir.Program, context: Context) -> ir.Program:
         replace(module, routines=tuple(rewrite(routine, moved) for routine in module.routines))
         for module in program.modules
     )
-    return _without_unread(replace(program, modules=modules), shifts)
+    return without_unread(replace(program, modules=modules), shifts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,10 +119,8 @@ class _Moves(Forward[State]):
         match statement:
             case ir.Assign(target=target, value=value) if (name := base_name(target)) is not None:
                 return self.assigned(name, target, value, before)
-            case ir.Do(arguments=arguments):
-                return _without(before, {base_name(one) or "" for one in arguments if one is not None})
-            case ir.Move(search=ir.Search(found=place)) if place is not None:
-                return _without(before, {base_name(place) or ""})
+            case ir.Do() | ir.Dialog() | ir.WaitUntil() | ir.Clock() | ir.DefineTrigger() | ir.Move(search=ir.Search()):
+                return _without(before, assigned_in((statement,)))
         return before
 
     def assigned(self, name: str, target: ir.Expression, value: ir.Expression, before: State) -> State:
@@ -213,35 +213,3 @@ def _without(state: State, names: set[str]) -> State:
     """The state with nothing known of these variables, nor of shifts by them."""
     kept = {name: value for name, value in state.items() if name.rstrip("/") not in names and not _names(value) & names}
     return state if len(kept) == len(state) else kept
-
-
-def _without_unread(program: ir.Program, shifts: frozenset[str]) -> ir.Program:
-    """The program without those of the shifts that are only assigned."""
-    written: set[int] = set()
-    for node in walk(*program.modules):
-        if isinstance(node, ir.Assign):
-            written.add(id(node.target))
-    read = {node.id.lower() for node in walk(*program.modules) if isinstance(node, ir.Name) and id(node) not in written}
-    gone = shifts - read
-
-    def left(node: object) -> object:
-        match node:
-            case ir.Assign(target=ir.Name(id=name)) if name.lower() in gone:
-                return ir.Nothing(origin=node.origin) if node.origin.comments else ()
-        return node
-
-    return replace(
-        program,
-        modules=tuple(
-            replace(
-                module,
-                declarations=tuple(
-                    one
-                    for one in module.declarations
-                    if not (isinstance(one, ir.Variable) and one.name.lower() in gone)
-                ),
-                routines=tuple(rewrite(routine, left) for routine in module.routines),
-            )
-            for module in program.modules
-        ),
-    )
