@@ -143,8 +143,9 @@ def _changed_files(then: Mapping[str, object], now: Mapping[str, object]) -> lis
                 found.append(f"{title}: {path} is new")
             elif old[path] != new[path]:
                 found.append(f"{title}: {path} has changed")
-    old, new = (dict(side.get("files") or {}) for side in (then, now))  # type: ignore[call-overload]
-    return found + [f"the {name} has changed" for name in sorted(set(old) | set(new)) if old.get(name) != new.get(name)]
+    before, after = (files if isinstance(files := side.get("files"), Mapping) else {} for side in (then, now))
+    beside = sorted(set(before) | set(after))
+    return found + [f"the {name} has changed" for name in beside if before.get(name) != after.get(name)]
 
 
 def _programs(document: Mapping[str, object], name: str) -> list[dict[str, str]]:

@@ -53,12 +53,6 @@ class Reach:
         """How many of the unreached statements nothing could reach."""
         return sum(one.impossible for one in self.unreached)
 
-    @property
-    def share_of_possible(self) -> float:
-        """The share of those that could be reached."""
-        possible = self.statements - self.impossible
-        return self.reached / possible if possible else 1.0
-
     def as_json(self) -> dict[str, object]:
         """A stable document: statements, reached, share, unreached (see Unreached)."""
         return {

@@ -158,13 +158,13 @@ class _Globals(Values):
         super().__init__()
         self.written: set[int] = set()
 
-    def __getitem__(self, place: int) -> Value:  # type: ignore[override]
+    def __getitem__(self, place: int) -> Value:  # type: ignore[override]  # places are asked for one by one, never as slices
         value = super().__getitem__(place)
         if self.owner is not None and place not in self.written:
             self.owner.looked_at_variable(place, value)
         return value
 
-    def __setitem__(self, place: int, value: Value) -> None:  # type: ignore[override]
+    def __setitem__(self, place: int, value: Value) -> None:  # type: ignore[override]  # as above: no slices
         if self.owner is not None:
             self.written.add(place)
             self.owner.set_variable(place)

@@ -122,16 +122,6 @@ def quoted(text: str, quote: str = '"', escapes: Mapping[str, str] | None = None
     return quote + "".join(table.get(sign, sign) for sign in text) + quote
 
 
-def comment_lines(text: str, sign: str, width: int = 0, end: str = "") -> list[str]:
-    """The remark as comment lines, each with the target's sign. `width` 0: as long as they are."""
-    lines: list[str] = []
-    room = max(width - len(sign) - len(end), 20) if width else 0
-    for line in text.splitlines() or [""]:
-        for part in wrapped(line, room) if room else [line]:
-            lines.append(f"{sign}{part}{end}".rstrip() if not end else f"{sign}{part}{end}")
-    return lines
-
-
 def wrapped(line: str, width: int) -> list[str]:
     """A line of prose cut at blanks (inside a word only when it alone is too long); joining the parts gives it back."""
     parts, width = [], max(width, 1)
@@ -141,40 +131,6 @@ def wrapped(line: str, width: int) -> list[str]:
         parts.append(line[:cut])
         line = line[cut:]
     return [*parts, line]
-
-
-def wrapped_code(
-    line: str, width: int, indent: str, quotes: str = '"', behind: str = "", before: str = ""
-) -> list[str]:
-    """A line of code cut behind commas, blanks or opening brackets outside of texts; further lines are indented.
-
-    `behind` ends a line that goes on, `before` begins the next one. A line with no place to cut stays long.
-    """
-    lines, rest = [], line
-    while len(rest) > width:
-        cut = _last_cut(rest, width - len(behind), quotes)
-        if cut is None:
-            break
-        lines.append(rest[:cut].rstrip() + behind)
-        shorter = indent + before + rest[cut:].lstrip()
-        if len(shorter) >= len(rest):
-            rest = shorter
-            break
-        rest = shorter
-    return [*lines, rest]
-
-
-def _last_cut(line: str, width: int, quotes: str) -> int | None:
-    inside, cut = "", None
-    start = len(line) - len(line.lstrip())
-    for at, sign in enumerate(line[: max(width, 0)]):
-        if inside:
-            inside = "" if sign == inside else inside
-        elif sign in quotes:
-            inside = sign
-        elif at > start and sign in ",( ":
-            cut = at + 1
-    return cut
 
 
 class NameMangler:
@@ -289,9 +245,7 @@ __all__ = [
     "PLAIN",
     "NameMangler",
     "NumberStyle",
-    "comment_lines",
     "number_text",
     "quoted",
     "wrapped",
-    "wrapped_code",
 ]

@@ -190,7 +190,7 @@ def test_what_nothing_decides_is_told_as_such() -> None:
     assert [one.impossible for one in reach.unreached] == [True]
     reason = "the condition in line 4 was never TRUE; no input, kept value or answer is looked at before it"
     assert reach.unreached[0].reason == reason
-    assert reach.share < reach.share_of_possible == 1.0
+    assert reach.share < 1.0 and reach.impossible == reach.statements - reach.reached
 
 
 def test_what_other_cells_did_not_change_says_so() -> None:

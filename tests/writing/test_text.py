@@ -12,11 +12,9 @@ from rpl.writing.text import (
     ALWAYS_POINT,
     NameMangler,
     NumberStyle,
-    comment_lines,
     number_text,
     quoted,
     wrapped,
-    wrapped_code,
 )
 
 NO_EXPONENT = NumberStyle(exponent="")
@@ -148,20 +146,6 @@ def test_wrapping_loses_nothing(line: str, width: int) -> None:
 @pytest.mark.parametrize("width", [0, -7])
 def test_wrapping_ends_where_no_room_is_left(width: int) -> None:
     assert wrapped("abc", width) == ["a", "b", "c"]
-
-
-def test_comments_keep_every_line() -> None:
-    assert comment_lines("one\ntwo words", "; ") == ["; one", "; two words"]
-    assert comment_lines("", "! ") == ["!"]
-    assert comment_lines("a", "{ ", end=" }") == ["{ a }"]
-
-
-def test_code_is_cut_outside_of_texts() -> None:
-    line = '  MoveL Offs(pick, 1, 2, 3), v100, "a, b";'
-    parts = wrapped_code(line, 24, "    ")
-    assert len(parts) > 1
-    assert any('"a, b"' in part for part in parts)
-    assert "".join(parts).replace(" ", "") == line.replace(" ", "")
 
 
 def test_quotes() -> None:

@@ -14,7 +14,7 @@ from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import called_below
-from rpl.passes.legalise.rewriting.beside import closure
+from rpl.passes.legalise.rewriting.beside import closure, does_any
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import left_out, stopped
@@ -80,7 +80,7 @@ def _held(body: ir.Body, timed: frozenset[str]) -> ir.Body | None:
     stops = sum(isinstance(one, _PAIR) for one in walk(body))
     if not 0 <= stop < start or stops != len(_PAIR) or any(isinstance(one, _LEAVING) for one in statements_in(inner)):
         return None
-    if any(_takes_time(one, timed) for one in behind):
+    if any(does_any(one, _TIME, timed) for one in behind):
         return None
     aside = [one.restore for one in inner if isinstance(one, ir.StoreMotion)] == [False, True]
     kept = (
@@ -96,16 +96,6 @@ _PAIR = (ir.StopMotion, ir.StartMotion)
 
 def _stores(body: ir.Body) -> bool:
     return any(isinstance(one, ir.StoreMotion) for one in walk(body))
-
-
-def _takes_time(statement: ir.Statement, timed: frozenset[str]) -> bool:
-    for node in walk(statement):
-        match node:
-            case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() in timed:
-                return True
-        if isinstance(node, _TIME):
-            return True
-    return False
 
 
 __all__ = ["held_motion"]

@@ -32,11 +32,16 @@ def local_names(routine: ir.Routine) -> frozenset[str]:
 
 def moves_or_waits(statement: object, routines: frozenset[str]) -> bool:
     """Does the statement drive the robot, or call a routine (of these, folded) that does?"""
+    return does_any(statement, _MOTION, routines)
+
+
+def does_any(statement: object, kinds: tuple[type, ...], routines: frozenset[str]) -> bool:
+    """Is one of these kinds in the statement, or a call of a routine (of these, folded) that has one (`closure`)?"""
     for node in walk(statement):
         match node:
             case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() in routines:
                 return True
-        if isinstance(node, _MOTION):
+        if isinstance(node, kinds):
             return True
     return False
 
