@@ -44,6 +44,7 @@ CAPABILITIES = Capabilities(
             *("Assign", "CallRoutine", "If", "While", "For", "Label", "Goto", "Return", "Halt", "Wait", "WaitUntil"),
             *("Pulse", "Message", "TaskControl", "Vendor", "Opaque", "Nothing", "Move", "Search", "Trigger"),
             *("DeclareInterrupt", "ControlInterrupt", "Dialog"),
+            "Clock",  # a task of the program counts it (passes/watches.py)
         )
     ),
     functions=frozenset((*tables.FUNCTIONS, *tables.TEXT_FUNCTIONS, *tables.POSITION_FUNCTIONS, "abs", "number_text")),
@@ -91,7 +92,6 @@ CAPABILITIES = Capabilities(
     io=Io(
         waits_at_rest=False,
         wait_timeout=True,
-        clock_step_s=tables.WATCH_STEP_S,
         shortest_wait_s=0.01,
         last_flag=0,
         group_sizes=(8, 4),

@@ -11,7 +11,6 @@ from rpl.passes.capabilities import (
     Data,
     DataRule,
     Errors,
-    Interrupts,
     Io,
     ModulePoints,
     Motion,
@@ -63,7 +62,6 @@ CAPABILITIES = Capabilities(
         no_tool="tool0",
         no_frame="wobj0",
     ),
-    interrupts=Interrupts(shortest_period_s=0.1),  # of ITimer, where it is not a single one
     tasks=Tasks(background=Background.SEPARATE, moving=False, places_beside=True),
     io=Io(
         signal_prefixes={

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from rpl import ir, registry
 from rpl.writing.precedence import Operator, OperatorTable
 
@@ -23,6 +25,9 @@ SYSTEM_RECORDS: dict[str, str] = {
     "joint_configuration_check": "C_MOTSET.conf.jsup",
     "path_configuration_check": "C_MOTSET.conf.lsup",
 }
+
+# The shortest period of ITimer, where it does not come a single time (RAPID reference manual).
+SHORTEST_PERIOD_S: Final = 0.1
 
 # Predefined buttons of a message box: the keys they show, and the number that each gives.
 _NUMBERS = WORDS.numbers("numbers")

@@ -94,7 +94,7 @@ CAPABILITIES = Capabilities(
         poll_s=0.002,
         number_data={f"digital_{way}": tables.COUNTED_FROM_0 for way in ("in", "out")},
     ),
-    texts=Texts(decimals=6, rules=frozenset((TextRule.CASE, TextRule.FIND_FROM, TextRule.PARTS, TextRule.PRINTABLE))),
+    texts=Texts(rules=frozenset((TextRule.CASE, TextRule.FIND_FROM, TextRule.PARTS, TextRule.PRINTABLE))),
     data=Data(aggregates=frozenset((Aggregate.NAMED,)), rules=frozenset()),
     errors=Errors(faults=frozenset((Fault.INDEX_OUTSIDE,))),
     routines=Routines(

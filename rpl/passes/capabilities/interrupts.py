@@ -46,7 +46,4 @@ class Interrupts:
 
     watched: Watched = Watched.NOTHING
 
-    shortest_period_s: float = 0.0
-    """Of interrupts that come with time, which look at what no other one can."""
-
     action_arguments: frozenset[ActionArguments] = frozenset((ActionArguments.REACTION, ActionArguments.PATH))

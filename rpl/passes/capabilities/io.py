@@ -61,10 +61,6 @@ class Io:
     timers: int = 0
     """How many system timers there are (`timer[1]` ...)."""
 
-    clock_step_s: float = 0.0
-    """There are no stop watches, but a task can count them in steps of so many seconds (0: none can, or there are
-    some)."""
-
     wait_timeout: bool = False
     """WaitUntil takes a timeout."""
 

@@ -64,9 +64,6 @@ class Texts:
     joined: int = 0
     """Texts that one assignment joins at most (0: any)."""
 
-    decimals: int = 0
-    """A number with a fraction shows so many decimals in a text (0: six digits in all)."""
-
     room: tuple[int, int] | None = None
     """Each text is declared with its longest length: what it gets where nothing says more, and the most that the
     controller's own functions take."""

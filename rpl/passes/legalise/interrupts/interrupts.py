@@ -1,4 +1,4 @@
-"""Interrupts by identity with trap routines (RAPID) as interrupts by priority (KRL), and the other way by `traps`.
+"""Interrupts by identity with trap routines (RAPID) as interrupts by priority (KRL).
 
 What a target's interrupts cannot watch is left as it is for the writer to report.
 """
@@ -14,7 +14,6 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_names, each_statement, exposed
 from rpl.passes.legalise.interrupts.changes import watched_changes
 from rpl.passes.legalise.interrupts.identities import one_meaning_each, one_name_each
-from rpl.passes.legalise.interrupts.traps import priorities_to_traps
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -22,17 +21,17 @@ from rpl.passes.rewrite import rewrite_parts
 _FIRST_PRIORITY = 10  # KRL allows 1..39 and 81..128; the lower ones are left to the user
 
 
-@legalising()
+@legalising(
+    unless=lambda context: (
+        "ConnectInterrupt" in context.capabilities.statements
+        or "DeclareInterrupt" not in context.capabilities.statements
+    )
+)
 def interrupts(program: ir.Program, context: Context) -> ir.Program:
-    """Rewrites towards whichever kind the target has; leaves programs without interrupts alone."""
-    statements = context.capabilities.statements
-    if "DeclareInterrupt" not in statements and "ConnectInterrupt" in statements:
-        return priorities_to_traps(program, context)
-    if "ConnectInterrupt" not in statements and "DeclareInterrupt" in statements:
-        program = one_name_each(watched_changes(program, context), context)
-        kept = one_meaning_each(program, context)
-        return _Priorities(kept, context).program(refused=kept is not program)
-    return program
+    """Interrupts by identity as interrupts by priority, for targets that have those alone."""
+    program = one_name_each(watched_changes(program, context), context)
+    kept = one_meaning_each(program, context)
+    return _Priorities(kept, context).program(refused=kept is not program)
 
 
 @dataclass(slots=True)

@@ -21,12 +21,12 @@ _TIMERS = ("timer", "timer_stopped", "timer_positive")
 
 @legalising()
 def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without numbered timers that have stop watches, or a task that counts them. Computed timer
-    numbers stay for the writer. Where timers have no flag that tells whether they are past zero, they are compared."""
+    """Only for targets without numbered timers that have stop watches. Computed timer numbers stay for the writer.
+    Where timers have no flag that tells whether they are past zero, they are compared."""
     capabilities = context.capabilities
     if capabilities.io.timers and "timer_positive" not in capabilities.system_variables:
         return _Compared(program, context).program()
-    if capabilities.io.timers or not ("Clock" in capabilities.statements or capabilities.io.clock_step_s):
+    if capabilities.io.timers or "Clock" not in capabilities.statements:
         return program
     worker = _Clocks(context)
     for module in program.modules:  # which timers are asked whether they run

@@ -19,13 +19,7 @@ _TIMERS = ("timer", "timer_stopped", "timer_positive")
 @legalising(
     unless=lambda context: (
         ("time" in context.capabilities.system_variables or context.capabilities.carries_rules)
-        or (
-            not (
-                context.capabilities.io.timers
-                or "Clock" in context.capabilities.statements
-                or context.capabilities.io.clock_step_s
-            )
-        )
+        or not (context.capabilities.io.timers or "Clock" in context.capabilities.statements)
     ),
     sees=("system time",),
 )

@@ -23,20 +23,19 @@ OTHER_DIGITS = code(
 @legalising(
     unless=lambda context: (
         context.capabilities.carries_rules
-        or rules_of(context.source).text_decimals == context.capabilities.texts.decimals
+        or rules_of(context.source).text_decimals == rules_of(context.target).text_decimals
     )
 )
 def text_decimals(program: ir.Program, context: Context) -> ir.Program:
     """The program as it is, after a report at each number with a fraction that a text shows."""
-    can = context.capabilities
-    theirs = rules_of(context.source).text_decimals
+    theirs, ours = rules_of(context.source).text_decimals, rules_of(context.target).text_decimals
 
     def look(editor: Editor, routine: ir.Routine) -> ir.Routine:
         for node in walk(routine):
             match node:
                 case ir.Builtin(function="value_text", arguments=(value,)):
                     if isinstance(editor.type_of(value), ir.RealType):
-                        shown = {"theirs": _count(theirs), "ours": _count(can.texts.decimals)}
+                        shown = {"theirs": _count(theirs), "ours": _count(ours)}
                         context.diagnostics.report(OTHER_DIGITS, routine.origin, **shown)
                         break
         return routine

@@ -17,8 +17,11 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_names, doing, each_statement, exposed
 from rpl.passes.legalise.rewriting.beside import local_names
 from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.source import Origin
+
+from .. import tables
 
 ANY_CHANGE = code(
     "interrupt-at-any-change",
@@ -39,8 +42,10 @@ _COMPARISONS = frozenset(("=", "<>", "<", "<=", ">", ">="))
 _LOGIC = frozenset(("and", "or", "xor", "cand", "cor", "=", "<>"))
 
 
+@legalising(sees=("DeclareInterrupt", "ControlInterrupt"))
 def priorities_to_traps(program: ir.Program, context: Context) -> ir.Program:
-    """Conditions that nothing can watch stay as they are, for the writer to report."""
+    """Interrupts by priority (KRL) as interrupts by identity with trap routines; conditions that nothing can watch stay
+    as they are, for the writer to report."""
     return _Traps(program, context).program()
 
 
@@ -142,11 +147,9 @@ class _Traps:
         if parts:
             every = list(dict.fromkeys(parts))
             return [order("change", part, number) for number, part in enumerate(every, 1)], False
-        period = self.context.capabilities.interrupts.shortest_period_s
-        local = any(isinstance(node, ir.Name) and node.id.lower() in own for node in walk(condition))
-        if not period or local:
+        if any(isinstance(node, ir.Name) and node.id.lower() in own for node in walk(condition)):
             return [], False
-        return [order("timer", ir.RealLiteral(period))], False
+        return [order("timer", ir.RealLiteral(tables.SHORTEST_PERIOD_S))], False
 
     def parts(self, condition: ir.Expression) -> list[ir.Expression] | None:
         """The signals and data of a condition when a change of each can be watched, else None."""
@@ -255,9 +258,8 @@ class _Traps:
         trap = _Trap(self.context.fresh(f"rpl_trap_{priority}"), declared.condition, tuple(orders))
         if not exact:
             trap.held = self.context.fresh(f"rpl_held_{priority}")
-            period = self.context.capabilities.interrupts.shortest_period_s
             told = POLLED if orders[0].event == "timer" else ANY_CHANGE
-            values = {"seconds": str(period)} if told is POLLED else {}
+            values = {"seconds": str(tables.SHORTEST_PERIOD_S)} if told is POLLED else {}
             self.context.diagnostics.report(told, declared.origin, **values)
         self.traps[priority] = trap
         # The motion that the action braked goes on when the interrupt routine has ended.
