@@ -119,8 +119,8 @@ class Simulation(Machine):
 
     def _add(self, declared: ir.Task, routine: ir.Routine) -> None:
         from rpl.linking.initial import shaped
-        from rpl.runtime.chain import DEFAULTS
-        from rpl.runtime.functions import identity
+        from rpl.runtime.functions.neutral import identity
+        from rpl.runtime.moves.chain import DEFAULTS
 
         code = self.program.code_of(routine)
         self.provide(code)

@@ -36,7 +36,7 @@ def check_blends(body: ir.Body, given: Mapping[str, ir.Expression], diagnostics:
         if last is not None and last[2] > 0.0:
             distance = math.dist(last[1], place)
             if distance > _SLACK_M and last[2] + radius > distance + _SLACK_M:
-                late = radius > 0.0  # the later one of two blends is left out, see rpl.runtime.leftout
+                late = radius > 0.0  # the later one of two blends is left out, see rpl.runtime.moves.leftout
                 told, size = (statement, radius) if late else (last[0], last[2])
                 diagnostics.report(OVERLAP, told.origin, radius=f"{size:g}", distance=f"{distance:.4g}")
                 if late:

@@ -9,10 +9,12 @@ from rpl.linking import interrupts
 from rpl.linking.conditions import depends_on_time
 from rpl.linking.meetings import meet
 from rpl.linking.places import writer
-from rpl.runtime import answers, resting, system, tasks
+from rpl.runtime import answers, tasks
 from rpl.runtime.code import SWITCHED, Branch, Instruction, Read, Values, Write
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.texts import value_text
+from rpl.runtime.functions import system
+from rpl.runtime.functions.texts import value_text
+from rpl.runtime.moves import resting
 from rpl.runtime.values import StopWatch, Value
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.ir.walk import children
-from rpl.runtime import functions, system
+from rpl.runtime.functions import neutral, system
 
 if TYPE_CHECKING:
     from rpl.linking.symbols import Symbols
@@ -21,7 +21,7 @@ def depends_on_time(condition: ir.Expression, linked: Symbols) -> bool:
         match node:
             case ir.System(name=name) if name in system.TIME_DEPENDENT:
                 return True
-            case ir.Builtin(function=function) if function in functions.TIME_DEPENDENT:
+            case ir.Builtin(function=function) if function in neutral.TIME_DEPENDENT:
                 return True
             case ir.System(name="cyclic_flag") if not bound:
                 bound = True

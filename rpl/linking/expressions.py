@@ -28,9 +28,10 @@ from rpl.linking.operators import (
 )
 from rpl.linking.types import Types
 from rpl.passes.scope import Scope
-from rpl.runtime import answers, functions, system
+from rpl.runtime import answers
 from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.functions import neutral, system
 from rpl.runtime.signals import as_port, is_bit_group, key_of, number_from, zero_of
 from rpl.runtime.values import (
     MUTABLE,
@@ -317,15 +318,15 @@ class Compiler:
 
     def builtin(self, expression: ir.Builtin) -> Read:
         name = expression.function
-        if name in functions.BY_PLACE:
+        if name in neutral.BY_PLACE:
             return self.by_place(name, expression.arguments)
         if name in ir.PROCEDURES:
             return self.procedure(self, name, expression.arguments)
         arguments = [self.value(argument) for argument in expression.arguments]
-        pure = functions.PURE.get(name)
+        pure = neutral.PURE.get(name)
         if pure is not None:
             return _applied(pure, arguments)
-        of_task = functions.OF_TASK.get(name)
+        of_task = neutral.OF_TASK.get(name)
         if of_task is None:
             raise InternalError(f"no function {name}")
         called = _place_in_words(expression) if name.startswith("target_to_joints") else ""

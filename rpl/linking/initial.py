@@ -145,7 +145,7 @@ def shaped(old: Value, given: Value, where: str) -> Value:
 
 
 def _listed(old: Value, given: list[Value], where: str) -> Value:
-    from rpl.runtime.texts import parsed, value_text
+    from rpl.runtime.functions.texts import parsed, value_text
 
     if isinstance(old, Array):
         if len(given) != len(old.items):

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 from rpl import ir
 from rpl.linking.expressions import Place
-from rpl.runtime import meetings, together
+from rpl.runtime import meetings
 from rpl.runtime.code import Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.moves import together
 from rpl.runtime.values import whole
 
 if TYPE_CHECKING:

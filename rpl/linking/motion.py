@@ -13,9 +13,9 @@ from rpl.linking.places import writer
 from rpl.linking.stops import looks_outside
 from rpl.runtime.code import Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.functions.system import modal_key
 from rpl.runtime.limits import MOST_WAITING
-from rpl.runtime.orders import BlendOrder, Order, PathRuleOrder, SearchOrder, SpeedOrder, TriggerOrder
-from rpl.runtime.system import modal_key
+from rpl.runtime.moves.orders import BlendOrder, Order, PathRuleOrder, SearchOrder, SpeedOrder, TriggerOrder
 from rpl.runtime.tasks import take_robot
 from rpl.runtime.values import JointsValue, PoseValue, Record, TargetValue, Value, whole
 

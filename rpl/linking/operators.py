@@ -8,9 +8,9 @@ from array import array
 from collections.abc import Callable
 
 from rpl.passes.numeric import round_half_away
-from rpl.runtime import functions
 from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.functions import neutral
 from rpl.runtime.limits import MOST_CHARACTERS, MOST_WHOLE
 from rpl.runtime.values import Value, equal, whole
 
@@ -154,9 +154,9 @@ OPERATIONS: dict[str, Callable[[Value, Value], Value]] = {
     "mod": lambda a, b: a - b * _div(a, b),
     "quo": _quo,
     "**": lambda a, b: float(a) ** b,
-    ":": functions.compose,
+    ":": neutral.compose,
     "&": _joined,
-    "@": functions.cross,
+    "@": neutral.cross,
     "<": operator.lt,
     ">": operator.gt,
     "<=": operator.le,

@@ -10,7 +10,6 @@ from rpl.errors import InternalError
 from rpl.ir.rules import Range, refusal
 from rpl.ir.walk import walk
 from rpl.linking.expressions import HIDDEN, Compiler, Place, unknown
-from rpl.runtime import procedures, system
 from rpl.runtime.code import (
     AnyRef,
     CallRef,
@@ -24,6 +23,7 @@ from rpl.runtime.code import (
     Write,
 )
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.functions import procedures, system
 from rpl.runtime.values import Array, Record, SignalRef, Value, whole
 from rpl.source import Origin
 

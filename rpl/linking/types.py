@@ -8,8 +8,8 @@ from rpl import ir, registry
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names, word_type
 from rpl.passes.typing import type_of
-from rpl.runtime.chain import convention_of
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.moves.chain import convention_of
 from rpl.runtime.values import (
     Array,
     ConfigValue,

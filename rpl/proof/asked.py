@@ -17,7 +17,7 @@ from rpl.proof.tolerance import Tolerance
 
 if TYPE_CHECKING:
     from rpl.passes import rigid
-    from rpl.runtime.orders import Payload, Programmed
+    from rpl.runtime.moves.orders import Payload, Programmed
 
 # A turn counts as if it happened that far (mm) from the frame.
 _LEVER_MM = 100.0

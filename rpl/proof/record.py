@@ -15,7 +15,7 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
-    from rpl.runtime.orders import Payload, Programmed
+    from rpl.runtime.moves.orders import Payload, Programmed
     from rpl.runtime.reached import Reached
     from rpl.runtime.waits import Waited
 

@@ -22,7 +22,7 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
-    from rpl.runtime.orders import Payload
+    from rpl.runtime.moves.orders import Payload
     from rpl.runtime.trace import Event, RunResult
 
 # A lag smooths what lasts shorter than itself: short runs are looked at finely, long ones as finely as memory allows.

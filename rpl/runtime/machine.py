@@ -13,15 +13,16 @@ from collections.abc import Callable, Iterable, Sequence
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
-from rpl.runtime import meetings, searching, tasks
+from rpl.runtime import meetings, tasks
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
 from rpl.runtime.limits import EVENTS_OF_MOTION, MOST_WAITING, STEPS_OF_EVENT, Limits
-from rpl.runtime.motion import MotionQueue
+from rpl.runtime.moves import searching
+from rpl.runtime.moves.queue import MotionQueue
+from rpl.runtime.moves.scene import Scene
 from rpl.runtime.reached import Reached
 from rpl.runtime.reactions import Reactions
-from rpl.runtime.scene import Scene
 from rpl.runtime.signals import Key, bit_kind, group_bits, is_bit_group, key_of, keys_named, usual_key, zero_of
 from rpl.runtime.task import ENDED, READY, WAITING
 from rpl.runtime.trace import Event, Fault, RunResult

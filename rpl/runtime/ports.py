@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from rpl.runtime.interrupts import Interrupt, Interrupts
     from rpl.runtime.limits import Limits
     from rpl.runtime.linked import Linked
-    from rpl.runtime.orders import Drive, Order, TriggerOrder
-    from rpl.runtime.pieces import Piece
-    from rpl.runtime.scene import External, Scene
+    from rpl.runtime.moves.orders import Drive, Order, TriggerOrder
+    from rpl.runtime.moves.pieces import Piece
+    from rpl.runtime.moves.scene import External, Scene
     from rpl.runtime.signals import Key
     from rpl.runtime.trace import Event
     from rpl.runtime.values import JointsValue, StopWatch, TargetValue, Value

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.runtime.scene import EXTERNAL_SPEED, Scene
+from rpl.runtime.moves.scene import EXTERNAL_SPEED, Scene
 
 if TYPE_CHECKING:
     from rpl.emulator.mechanismfile import Mechanism

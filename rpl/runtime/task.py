@@ -11,14 +11,14 @@ from rpl.depth import has_more_depth
 from rpl.runtime.code import ATTEND, BLOCKED, SWITCHED, Code, Frame, Handling, Read, Values, Write
 from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
 from rpl.runtime.interrupts import Interrupt, Interrupts
+from rpl.runtime.moves.velocities import let_rest
 from rpl.runtime.values import Value
-from rpl.runtime.velocities import let_rest
 from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, Waited, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.ir.rules import Rules
-    from rpl.runtime.orders import Order, TriggerOrder
+    from rpl.runtime.moves.orders import Order, TriggerOrder
     from rpl.runtime.ports import Machine, Robot
     from rpl.runtime.signals import Key
 

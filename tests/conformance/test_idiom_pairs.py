@@ -15,7 +15,7 @@ from idiom_pairs import LANGUAGES, TASKS, entry_of, figures, recorded, version, 
 
 from rpl.emulator.model import load_robot
 from rpl.emulator.rotations import FloatArray
-from rpl.runtime.chain import matrix_of
+from rpl.runtime.moves.chain import matrix_of
 from rpl.simulation import run_program
 
 each_task = pytest.mark.parametrize("task", TASKS)

@@ -11,8 +11,8 @@ from rpl.passes import rigid
 from rpl.proof.compare import Tolerance, compare
 from rpl.proof.paths import gap, length_mm, measure, turn_deg
 from rpl.proof.record import Happening, Place, Record, Stretch, signal_names
-from rpl.runtime.payloads import Payload
-from rpl.runtime.programmed import Programmed
+from rpl.runtime.moves.payloads import Payload
+from rpl.runtime.moves.programmed import Programmed
 
 TOLERANCE = Tolerance()
 

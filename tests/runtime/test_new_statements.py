@@ -7,8 +7,8 @@ import pytest
 from helpers import on, run
 
 from rpl.passes import rigid
-from rpl.runtime import geometry
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.functions import geometry
 
 VIPER, COBRA, UR = "adept_viper_s650", "adept_cobra_s600", "ur5e"
 

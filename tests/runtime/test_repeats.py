@@ -8,7 +8,7 @@ import pytest
 from rpl.emulator import planner
 from rpl.emulator.model import load_robot
 from rpl.emulator.planner import MoveRequest
-from rpl.runtime import repeats
+from rpl.runtime.moves import repeats
 from tests.runtime.helpers import krl
 
 _plan = planner.plan

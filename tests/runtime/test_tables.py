@@ -10,13 +10,13 @@ from rpl import ir
 from rpl.cell import parse_cell
 from rpl.errors import UsageError
 from rpl.passes import rigid
-from rpl.runtime import functions, procedures, system, texts
 from rpl.runtime.faults import ProgramError
+from rpl.runtime.functions import neutral, procedures, system, texts
 from rpl.runtime.values import Array, PoseValue, Record, RotationValue, Value, VectorValue, copied, pose_of
 
 
 def test_nothing_of_the_neutral_tables_is_missing() -> None:
-    assert set(functions.PURE) | set(functions.OF_TASK) | functions.BY_PLACE == set(ir.FUNCTIONS)
+    assert set(neutral.PURE) | set(neutral.OF_TASK) | neutral.BY_PLACE == set(ir.FUNCTIONS)
     assert set(procedures.PROCEDURES) == set(ir.PROCEDURES)
     assert set(system.READ) == set(ir.SYSTEM_VARIABLES)
     assert set(system.WRITE) == {row.name for row in ir.SYSTEM_VARIABLES.values() if row.access == "rw"}
@@ -37,17 +37,17 @@ def test_components_read_back_exactly_as_given(a: float, b: float, c: float) -> 
 @given(ANGLE, ANGLE, ANGLE, st.floats(-1e3, 1e3))
 def test_a_pose_times_its_inverse_is_nothing(a: float, b: float, c: float, x: float) -> None:
     pose = PoseValue(VectorValue(x, -x, 2 * x), RotationValue("zyx", (a, b, c)))
-    done = functions.compose(pose, functions.inverse(pose)).rigid()
+    done = neutral.compose(pose, neutral.inverse(pose)).rigid()
     assert done.position.length < 1e-6 and abs(abs(done.rotation.quaternion[0]) - 1.0) < 1e-9
-    moved = functions.PURE["tool_offset"](functions.PURE["tool_offset"](pose, 0, 0, 10), 0, 0, -10)
+    moved = neutral.PURE["tool_offset"](neutral.PURE["tool_offset"](pose, 0, 0, 10), 0, 0, -10)
     assert math.dist(moved.trans, pose.trans) < 1e-6
 
 
 def test_offset_keeps_the_rotation_and_tool_offset_turns_about_moving_axes() -> None:
     pose = pose_of(rigid.Pose(rigid.Vector(0, 0, 0), rigid.rotation_of_zyx(90, 0, 0)), "zyx")
-    assert functions.PURE["offset"](pose, 1, 2, 3).trans == (1, 2, 3)
-    assert functions.PURE["tool_offset"](pose, 10, 0, 0).trans == pytest.approx((0, 10, 0), abs=1e-12)
-    turned = functions.PURE["tool_offset"](pose, 0, 0, 0, 90, 0, 90)  # about x, then about the new z
+    assert neutral.PURE["offset"](pose, 1, 2, 3).trans == (1, 2, 3)
+    assert neutral.PURE["tool_offset"](pose, 10, 0, 0).trans == pytest.approx((0, 10, 0), abs=1e-12)
+    turned = neutral.PURE["tool_offset"](pose, 0, 0, 0, 90, 0, 90)  # about x, then about the new z
     wanted = rigid.rotation_of_zyx(90, 0, 0).then(rigid.rotation_of_zyx(0, 0, 90)).then(rigid.rotation_of_zyx(90, 0, 0))
     assert turned.rot.same(RotationValue("quaternion", wanted.quaternion))
 
@@ -93,7 +93,7 @@ def test_indices_are_checked(index: float, good: bool) -> None:
     ],
 )
 def test_functions_by_example(function: str, arguments: tuple[object, ...], result: object) -> None:
-    assert functions.PURE[function](*arguments) == result
+    assert neutral.PURE[function](*arguments) == result
 
 
 def test_numbers_written_in_texts_are_read_by_the_marks_of_the_language() -> None:

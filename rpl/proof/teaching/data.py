@@ -20,7 +20,7 @@ from rpl.passes.typewords import component_names, type_word
 from rpl.passes.typing import type_of
 from rpl.passes.values import Record, Target, Value, literal, real
 from rpl.proof.record import Place, place_of
-from rpl.runtime.geometry import rotation_of_vector
+from rpl.runtime.functions.geometry import rotation_of_vector
 from rpl.source import Origin
 
 POINT, TOOL, FRAME, NUMBER = "point", "tool", "frame", "number"

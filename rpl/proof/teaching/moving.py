@@ -22,7 +22,7 @@ from rpl.passes import rigid
 from rpl.proof.record import Record, place_of
 from rpl.proof.teaching.data import POINT, Datum, Joints, Taught
 from rpl.proof.teaching.pairs import Copy
-from rpl.runtime.geometry import rotation_of_vector
+from rpl.runtime.functions.geometry import rotation_of_vector
 
 _FARTHEST_DEG = 45.0  # an axis that goes farther than this for a small amount stands at a singularity
 _HALVINGS = 4

@@ -16,7 +16,7 @@ from typing import Any
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.fold import constant
+from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.whereabouts import Whereabouts
@@ -52,10 +52,7 @@ def free_postures(program: ir.Program, context: Context) -> ir.Program:
     ours, theirs = registry.dialect(context.source).notation, registry.dialect(can.places.notation).notation
     if ours is None or theirs is None or not any(_may_be_free(one) for one in walk(*program.modules)):
         return program
-    one: Any = arm
-    first: Any = ours()
-    second: Any = theirs()
-    return _Free(program, context, first, second).program() if _apart(one, first, second) else program
+    return _Free(program, context, ours, theirs).program()
 
 
 def _may_be_free(node: object) -> bool:
@@ -64,13 +61,14 @@ def _may_be_free(node: object) -> bool:
 
 @lru_cache(maxsize=64)
 def _apart(arm: Any, ours: Any, theirs: Any) -> bool:
-    """Do the controllers often choose otherwise on this arm, with nothing said?"""
+    """Do the controllers often choose otherwise on this arm, with nothing said? ours, theirs: classes of notations."""
     import numpy as np  # most translations ask nothing of the arm
 
     low, high = arm.limits[:, 0], arm.limits[:, 1]
     spread = np.random.default_rng(1).uniform(-0.9, 0.9, size=(_TRIED, 2, len(low)))
     pairs = np.clip((low + high) / 2 + spread * (high - low) / 2, -170.0, 170.0)
-    differ = sum(_differ(arm, ours, theirs, arm.forward(to), at) for at, to in pairs)
+    first, second = ours(), theirs()
+    differ = sum(_differ(arm, first, second, arm.forward(to), at) for at, to in pairs)
     return differ > _OFTEN * _TRIED
 
 
@@ -88,10 +86,19 @@ def _differ(arm: Any, ours: Any, theirs: Any, flange: Any, before: Any) -> bool:
 class _Free(Rewriter):
     def __init__(self, program: ir.Program, context: Context, ours: Any, theirs: Any) -> None:
         super().__init__(program, context)
-        self.written = JointsOfPlaces(program, context)
         self.arm: Any = context.robot
-        self.ours, self.theirs = ours, theirs
-        self.unchanged = unchanged_in(program)
+        self.notations = ours, theirs
+        self.ours, self.theirs = ours(), theirs()
+
+    # What costs something is asked when the first move needs it: few do.
+
+    @cached_property
+    def unchanged(self) -> Unchanged:
+        return unchanged_in(self.source)
+
+    @cached_property
+    def written(self) -> JointsOfPlaces:
+        return JointsOfPlaces(self.source, self.context)
 
     @cached_property
     def stands(self) -> Whereabouts:
@@ -100,7 +107,7 @@ class _Free(Rewriter):
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         if isinstance(statement, ir.Move) and _may_be_free(statement) and self.is_free(statement):
-            return [self.move(statement)]
+            return [self.move(statement)] if _apart(self.arm, *self.notations) else [statement]
         return super().statement(statement)
 
     def is_free(self, move: ir.Move) -> bool:

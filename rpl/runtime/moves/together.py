@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from rpl.runtime import meetings
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.orders import BlendOrder, Drive, Order
+from rpl.runtime.moves.orders import BlendOrder, Drive, Order
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove

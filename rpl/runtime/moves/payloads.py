@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime.orders import Modal, Order, Payload
+from rpl.runtime.moves.orders import Modal, Order, Payload
 from rpl.runtime.values import Array, PoseValue, Record, RotationValue, Value, VectorValue
 
 if TYPE_CHECKING:

@@ -9,10 +9,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime import pieces
-from rpl.runtime.chain import Frames, convention_of, external_value, filled, frames_of, is_joints, joints_of, shifted
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.orders import Order
+from rpl.runtime.moves import pieces
+from rpl.runtime.moves.chain import (
+    Frames,
+    convention_of,
+    external_value,
+    filled,
+    frames_of,
+    is_joints,
+    joints_of,
+    shifted,
+)
+from rpl.runtime.moves.orders import Order
 from rpl.runtime.values import ConfigValue, TargetValue, Value, pose_of
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl.passes import rigid
-from rpl.runtime.chain import external_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.geometry import as_pose
+from rpl.runtime.functions.geometry import as_pose
+from rpl.runtime.moves.chain import external_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import PoseValue, TargetValue, Value, rotation_of
 

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime import leftout
-from rpl.runtime.chain import Planning, request_of
-from rpl.runtime.orders import BlendOrder, Drive, Order, PathRuleOrder, TriggerOrder
-from rpl.runtime.pathevents import SMALL
-from rpl.runtime.pieces import Piece
-from rpl.runtime.programmed import programmed_of
-from rpl.runtime.ranges import outside
+from rpl.runtime.moves import leftout
+from rpl.runtime.moves.chain import Planning, request_of
+from rpl.runtime.moves.orders import BlendOrder, Drive, Order, PathRuleOrder, TriggerOrder
+from rpl.runtime.moves.pathevents import SMALL
+from rpl.runtime.moves.pieces import Piece
+from rpl.runtime.moves.programmed import programmed_of
+from rpl.runtime.moves.ranges import outside
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rpl.runtime.chain import Planning, frames_of, is_joints
-from rpl.runtime.orders import BlendOrder, Order, Programmed
+from rpl.runtime.moves.chain import Planning, frames_of, is_joints
+from rpl.runtime.moves.orders import BlendOrder, Order, Programmed
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import MoveRequest, PlannedMove

@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime.orders import Drive, TriggerOrder
+from rpl.runtime.moves.orders import Drive, TriggerOrder
 
 if TYPE_CHECKING:
     from rpl.ir.rules import TriggerRules
-    from rpl.runtime.pieces import Corner, Piece
+    from rpl.runtime.moves.pieces import Corner, Piece
 
 # Moments (s), ways (mm) and fractions of moves that differ by less are one.
 SMALL = 1e-9

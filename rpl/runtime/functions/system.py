@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rpl import ir
-from rpl.runtime import presentmove
-from rpl.runtime.chain import DEFAULTS
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.functions import identity
+from rpl.runtime.functions.neutral import identity
+from rpl.runtime.moves import presentmove
+from rpl.runtime.moves.chain import DEFAULTS
 from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import Member, Record, StopWatch, Value, copied, whole
 from rpl.runtime.waits import CYCLE_S

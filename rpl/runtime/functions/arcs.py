@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 
 from rpl.passes import rigid
-from rpl.runtime.geometry import PURE as GEOMETRY
-from rpl.runtime.geometry import as_pose
+from rpl.runtime.functions.geometry import PURE as GEOMETRY
+from rpl.runtime.functions.geometry import as_pose
 from rpl.runtime.values import (
     AxesValue,
     ExternalValue,

@@ -8,22 +8,27 @@ Without a robot every move is made at once.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime import blocks, latecorners, pathevents, pieces, resting, searching, stopping, together, velocities
-from rpl.runtime.chain import (
-    Planning,
-    pose_of_array,
-    request_of,
-)
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.orders import Drive, Order, TriggerOrder
-from rpl.runtime.payloads import payloads_of
-from rpl.runtime.pieces import Piece
-from rpl.runtime.programmed import programmed_of
-from rpl.runtime.robotstate import RobotState
-from rpl.runtime.scene import External
+from rpl.runtime.moves import (
+    blocks,
+    latecorners,
+    pathevents,
+    pieces,
+    resting,
+    searching,
+    stopping,
+    together,
+    velocities,
+)
+from rpl.runtime.moves.chain import Planning, pose_of_array, request_of
+from rpl.runtime.moves.orders import Drive, Order, TriggerOrder
+from rpl.runtime.moves.payloads import payloads_of
+from rpl.runtime.moves.pieces import Piece, Stored
+from rpl.runtime.moves.programmed import programmed_of
+from rpl.runtime.moves.robotstate import RobotState
+from rpl.runtime.moves.scene import External
 from rpl.runtime.trace import Leg
 from rpl.runtime.values import Value
 
@@ -35,16 +40,6 @@ if TYPE_CHECKING:
 
 ARRIVALS, MOTION = 1, 4  # phases of a moment, see machine
 MOST_CONCURRENT = 5
-
-
-@dataclass(slots=True, eq=False)
-class Stored:
-    """A path put aside: where it was interrupted and what was still to come."""
-
-    joints: FloatArray
-    piece: Piece | None
-    queue: list[Drive]
-    stopped: bool
 
 
 class MotionQueue(RobotState):

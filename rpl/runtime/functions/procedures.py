@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rpl.runtime.code import AnyRef
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.texts import formatted, parsed, scanned, text_value
+from rpl.runtime.functions.texts import formatted, parsed, scanned, text_value
 from rpl.runtime.values import Member, Record, Value, whole
 
 

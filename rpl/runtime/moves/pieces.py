@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeGuard
 
 from rpl.passes import rigid
-from rpl.runtime.orders import BlendOrder, Drive
+from rpl.runtime.moves.orders import BlendOrder, Drive
+from rpl.runtime.moves.zones import ZoneSize, largest, zone_size
 from rpl.runtime.values import Value
-from rpl.runtime.zones import ZoneSize, largest, zone_size
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -98,7 +98,7 @@ class Piece:
 
 def plan(model: RobotModel, joints: FloatArray, request: MoveRequest) -> PlannedMove | MotionFault:
     """Plan one move (the emulator is imported when the first move is made)."""
-    from rpl.runtime import repeats
+    from rpl.runtime.moves import repeats
 
     return repeats.plan(model, joints, request)
 
@@ -194,10 +194,20 @@ def way_back(model: RobotModel, joints: FloatArray, piece: Piece, now: float) ->
 # ---- corners
 
 
+@dataclass(slots=True, eq=False)
+class Stored:
+    """A path put aside: where it was interrupted and what was still to come."""
+
+    joints: FloatArray
+    piece: Piece | None
+    queue: list[Drive]
+    stopped: bool
+
+
 def joined(model: RobotModel, piece: Piece, following: Drive, now: float) -> Piece | None:
     """The piece up to the corner with the next move, from where the robot is; None when there can be no corner."""
     from rpl.emulator.blending import Size
-    from rpl.runtime import repeats
+    from rpl.runtime.moves import repeats
 
     first, second = piece.drive.plan, following.plan
     assert first is not None and second is not None

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rpl.runtime.orders import Drive
+    from rpl.runtime.moves.orders import Drive
     from rpl.runtime.ports import Robot
 
 CODE = "corner-path-failure"

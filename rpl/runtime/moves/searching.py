@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.orders import Drive, SearchOrder
+from rpl.runtime.moves.orders import Drive, SearchOrder
 
 if TYPE_CHECKING:
     from rpl.runtime.ports import Robot

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Literal
 from rpl.emulator.postures import ASKED_POSTURES
 from rpl.passes import rigid
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.orders import Modal, Order
-from rpl.runtime.scene import NOTHING, External, Scene, place_of
+from rpl.runtime.moves.orders import Modal, Order
+from rpl.runtime.moves.scene import NOTHING, External, Scene, place_of
 from rpl.runtime.values import (
     AxesValue,
     ConfigValue,

@@ -1,4 +1,4 @@
-"""The neutral built-in functions: mathematics, geometry, kinematics. Texts stand in `rpl.runtime.texts`.
+"""The neutral built-in functions: mathematics, geometry, kinematics. Texts stand in `rpl.runtime.functions.texts`.
 
 `PURE` functions take values and give a value; `OF_TASK` functions also get the task that asks. Together they cover
 `rpl.ir.FUNCTIONS` (a test proves it). Angles are degrees.
@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
 from rpl.passes.numeric import NUMERIC
-from rpl.runtime import arcs, axes, geometry, reaching, tasks, texts
-from rpl.runtime.chain import convention_of, external_of, filled, frames_of, joints_of, joints_value, matrix_of
+from rpl.runtime import tasks
 from rpl.runtime.faults import ProgramError, name_of
-from rpl.runtime.geometry import as_pose
+from rpl.runtime.functions import arcs, axes, geometry, reaching, texts
+from rpl.runtime.functions.geometry import as_pose
+from rpl.runtime.moves.chain import convention_of, external_of, filled, frames_of, joints_of, joints_value, matrix_of
 from rpl.runtime.tasks import robot_of
 from rpl.runtime.values import (
     Array,

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rpl.errors import UsageError
-from rpl.runtime.chain import current_target, frames_of, joints_value
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.imagined import Imagined
-from rpl.runtime.pieces import Piece
-from rpl.runtime.scene import External
+from rpl.runtime.moves.chain import current_target, frames_of, joints_value
+from rpl.runtime.moves.imagined import Imagined
+from rpl.runtime.moves.pieces import Piece
+from rpl.runtime.moves.scene import External
 from rpl.runtime.values import JointsValue, TargetValue, Value
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from rpl.runtime import blocks, pieces, resting, searching
-from rpl.runtime.orders import Drive
-from rpl.runtime.pieces import Corner, Halting, Piece
-from rpl.runtime.robotstate import external_of
+from rpl.runtime.moves import blocks, pieces, resting, searching
+from rpl.runtime.moves.orders import Drive
+from rpl.runtime.moves.pieces import Corner, Halting, Piece
+from rpl.runtime.moves.robotstate import external_of
 
 if TYPE_CHECKING:
     from rpl.emulator.cornerlaws import Stretch

@@ -11,10 +11,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
-from rpl.runtime import pieces
-from rpl.runtime.chain import Planning, request_of
-from rpl.runtime.orders import Drive, Order, Rate
-from rpl.runtime.pieces import Piece
+from rpl.runtime.moves import pieces
+from rpl.runtime.moves.chain import Planning, request_of
+from rpl.runtime.moves.orders import Drive, Order, Rate
+from rpl.runtime.moves.pieces import Piece
 from rpl.runtime.waits import Wait
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rpl.runtime.orders import BlendOrder
+from rpl.runtime.moves.orders import BlendOrder
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from rpl.ir.rules import refusal
-from rpl.runtime.orders import BlendOrder, Order
+from rpl.runtime.moves.orders import BlendOrder, Order
 from rpl.runtime.values import Value
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.emulator.rotations import FloatArray
-    from rpl.runtime.orders import Drive
+    from rpl.runtime.moves.orders import Drive
+    from rpl.runtime.moves.scene import External
     from rpl.runtime.ports import Robot
-    from rpl.runtime.scene import External
 
 Place = tuple["FloatArray", "External"]
 
