@@ -7,8 +7,7 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
-from rpl.passes.legalise.facts.flow import ModalFlow
-from rpl.passes.scope import ProgramScope
+from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.project import read_sources
 from rpl.source import source_from_text
 from rpl.translation import translate_program
@@ -27,7 +26,7 @@ def bases(lines: str, more: str = "") -> list[float | None]:
     diagnostics = Diagnostics()
     program = read_sources([source_from_text("main.rpl", text)], "rpl", diagnostics).program
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
-    flow = ModalFlow(program, ProgramScope(program))
+    flow = FramesInForce(program)
     found = []
     for node in walk(*program.modules):
         if isinstance(node, ir.Move):

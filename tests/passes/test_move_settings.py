@@ -6,7 +6,7 @@ import pytest
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.project import read_sources
 from rpl.source import source_from_text
 
@@ -19,7 +19,7 @@ def speeds(lines: str, more: str = "") -> list[float | None]:
     diagnostics = Diagnostics()
     program = read_sources([source_from_text("main.rpl", text)], "rpl", diagnostics).program
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]
-    flow = Flow.of(program, {"path_speed": 250.0})
+    flow = SettingsInForce.of(program, {"path_speed": 250.0})
     found = []
     for node in ir_moves(program):
         value = flow.at(node)["path_speed"]

@@ -17,7 +17,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.framenumbers import Table, is_none, key_of, names_in, tables_of
-from rpl.passes.legalise.facts.modalflow import Flow, in_frame
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, in_frame
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -119,12 +119,12 @@ def selected_once(program: ir.Program, context: Context) -> ir.Program:
     """Each program that moves selects its tool and frame before its first move; what is in force is not selected
     again, and stands at the moves."""
     defaults = dict(rules_of(context.source).system_defaults)
-    flow = Flow.of(program, defaults)
+    flow = SettingsInForce.of(program, defaults)
     steady = not any(True for _ in reactions(program))
     program = _each_routine(program, lambda one: _selecting(one, flow, steady))
-    flow = Flow.of(program, defaults)
+    flow = SettingsInForce.of(program, defaults)
     program = _each_routine(program, lambda one: _without_repeated(one, flow))
-    last = Flow.of(program, defaults)
+    last = SettingsInForce.of(program, defaults)
 
     def change(statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Move):
@@ -151,7 +151,7 @@ def _number(name: str, value: ir.Expression | None) -> ir.Expression | None:
     return None
 
 
-def _selecting(routine: ir.Routine, flow: Flow, steady: bool) -> ir.Routine:
+def _selecting(routine: ir.Routine, flow: SettingsInForce, steady: bool) -> ir.Routine:
     """The routine that selects, before its first move, what is in force there by whatever called it; `steady`: nothing
     selects between two statements."""
     nodes = [*walk(routine.body)]
@@ -222,7 +222,7 @@ def _may_select(node: object) -> bool:
     return bool(_selected(node)) or _calls(node) or isinstance(node, ir.Vendor | ir.Opaque)
 
 
-def _without_repeated(routine: ir.Routine, flow: Flow) -> ir.Routine:
+def _without_repeated(routine: ir.Routine, flow: SettingsInForce) -> ir.Routine:
     """The routine without what is in force already; one that needs frames keeps its first selection of each kind."""
     needs = any(isinstance(node, ir.Move) for node in walk(routine.body))
     kept: set[str] = set() if needs else set(tables.SELECTED)

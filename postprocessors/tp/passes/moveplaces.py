@@ -11,7 +11,7 @@ from rpl.ir.walk import walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.forward import reactions
-from rpl.passes.legalise.facts.modalflow import in_frame
+from rpl.passes.legalise.facts.settingsinforce import in_frame
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames
 from rpl.passes.legalise.rewriting.jumps import inside

@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.passes.fold import is_taught_type
-from rpl.passes.legalise.facts.forward import Forward, beside, started
-from rpl.passes.legalise.facts.usage import assigned_below, base_name, called_below, usage_of
+from rpl.passes.legalise.facts.inforce import InForce
+from rpl.passes.legalise.facts.usage import base_name, usage_of
 from rpl.passes.scope import ProgramScope, Scope
 
 Held = Mapping[str, ir.Expression]  # folded name -> closed value
@@ -135,49 +135,39 @@ class HeldValues:
 
     @classmethod
     def of(cls, known: KnownData, names: Iterable[str]) -> HeldValues:
-        program = known.program
         values = cls(known)
-        apart = {task.entry.lower() for task in program.tasks if task.kind != "motion"} | set(beside(program))
-        apart |= {task.entry.lower() for task in program.tasks[1:]}
-        below = assigned_below(program)
-        unsure = {name for routine in called_below(program, apart) for name in below.get(routine, ())}
-        followed = frozenset(
-            name for name in names if known.declared[name] == 1 and name not in known.otherwise and name not in unsure
-        )
-        if followed:
-            _Holding(values, followed, below).solve(started(program), beside(program))
+        _Holding(values, names).follow_program()
         return values
 
     def before(self, statement: ir.Statement) -> Held:
         return self.at.get(id(statement), NOTHING_HELD)
 
 
-class _Holding(Forward[Held]):
-    def __init__(self, values: HeldValues, followed: frozenset[str], below: dict[str, set[str]]) -> None:
-        super().__init__(values.known.program, NOTHING_HELD, NOTHING_HELD)
-        self.values, self.followed, self.below = values, followed, below
+class _Holding(InForce[ir.Expression]):
+    """`followed`: those of the names that assignments alone change, and these at known times."""
 
-    def join(self, one: Held, other: Held) -> Held:
-        same = {name: value for name, value in one.items() if other.get(name) == value}
-        return one if len(same) == len(one) else same
+    def __init__(self, values: HeldValues, names: Iterable[str]) -> None:
+        known = values.known
+        super().__init__(known.program, NOTHING_HELD)
+        self.values = values
+        plain = (name for name in names if known.declared[name] == 1 and name not in known.otherwise)
+        self.followed = frozenset(plain) - self.unsure
+
+    def follow_program(self) -> None:
+        if self.followed:
+            super().follow_program()
 
     def transfer(self, statement: ir.Statement, before: Held) -> Held:
         match statement:
-            case ir.Assign(target=target, value=value) if (name := base_name(target)) in self.followed:
-                whole = isinstance(target, ir.Name)
-                given = self.values.known.closed(value, self.scope, before) if whole else None
-                kept = {key: one for key, one in before.items() if key != name}
-                return kept if given is None or name is None else {**kept, name: given}
             case ir.Opaque() | ir.Vendor(effect="unknown"):
                 return NOTHING_HELD
-        return before
+        return super().transfer(statement, before)
 
-    def left(self, before: Held, end: Held, routine: ir.Routine, there: Scope, here: Scope) -> Held:
-        changed = self.below.get(routine.name.lower(), set())
-        if changed.isdisjoint(self.followed):
+    def assigned(self, name: str, target: ir.Expression, value: ir.Expression, before: Held) -> Held:
+        if name not in self.followed:
             return before
-        kept = {name: value for name, value in before.items() if name not in changed}
-        return kept | {name: value for name, value in end.items() if name in changed}
+        given = self.values.known.closed(value, self.scope, before) if isinstance(target, ir.Name) else None
+        return self.without(before, {name}) if given is None else {**before, name: given}
 
     def passed(self, call: ir.CallRoutine | ir.Call, state: Held) -> Held:
         return state if self.meant(call) else NOTHING_HELD
@@ -190,7 +180,7 @@ class _Holding(Forward[Held]):
     def met(self, statement: ir.Statement, before: Held) -> None:
         """Nothing is said of loops, whose condition is looked at again, nor where functions change what is followed."""
         inner = [call for call in self.calls_in(statement) if isinstance(call, ir.Call)]
-        changing = any(not self.followed.isdisjoint(self.below.get(call.name.lower(), ())) for call in inner)
+        changing = any(not self.followed.isdisjoint(self.changed.get(call.name.lower(), ())) for call in inner)
         if changing or isinstance(statement, ir.While | ir.For | ir.Repeat | ir.Loop):
             return
         known = self.values.at.get(id(statement))

@@ -15,7 +15,7 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import BRAKING, State
+from rpl.passes.legalise.facts.settingsinforce import BRAKING, State
 from rpl.passes.legalise.settings.modal import DROPPED
 
 GIVEN = code(

@@ -252,21 +252,24 @@ def doing_each(
 ) -> dict[str, frozenset[str]]:
     """For each of `whats`, the routines (folded names) with a node that `does` it, in themselves or in what they
     call."""
+    below = done_below(program, does)
+    return {what: frozenset(name for name, found in below.items() if what in found) for what in whats}
+
+
+def done_below(program: ir.Program, does: Callable[[object], Iterable[str]]) -> dict[str, set[str]]:
+    """For each routine (folded name) what its nodes do, or those of what it calls."""
     calls: dict[str, set[str]] = {}
-    found: dict[str, set[str]] = {what: set() for what in whats}
+    found: dict[str, set[str]] = {}
     procedures = _procedures(program)
     for module in program.modules:
         for routine in module.routines:
             name = routine.name.lower()
-            called = calls.setdefault(name, set())
+            called, done = calls.setdefault(name, set()), found.setdefault(name, set())
             for node in walk(routine):
                 called.update(_may_call(node, procedures))
-                for what in does(node):
-                    found[what].add(name)
-    for names in found.values():
-        while more := {name for name, called in calls.items() if name not in names and called & names}:
-            names |= more
-    return {what: frozenset(names) for what, names in found.items()}
+                done.update(does(node))
+    _close(found, calls)
+    return found
 
 
 def called_below(program: ir.Program, roots: set[str]) -> frozenset[str]:

@@ -18,7 +18,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context, array
 from rpl.passes.legalise.facts.effects import blocks
-from rpl.passes.legalise.facts.flow import ModalFlow
+from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.rewriting.jumps import LOOPS
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -74,7 +74,7 @@ class Whereabouts:
         arm, other = context.robot, context.to_robot
         self.arm: Arm | None = arm if other is None or other is arm else None
         self.scopes = ProgramScope(program)
-        self.flow = ModalFlow(program, self.scopes)
+        self.flow = FramesInForce(program)
         self.unchanged = unchanged_in(program, places=settled)
         self.moving = doing(program, _moves)
         make = registry.dialect(context.source).notation

@@ -14,7 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -46,7 +46,7 @@ def speed_shares(program: ir.Program, context: Context) -> ir.Program:
     if not assigned or asked or any(isinstance(one, ir.Move) and not _by_profile(one) for one in walk(program)):
         return program
     defaults = dict(rules_of(context.source).system_defaults)
-    worker = _Shares(context, Flow.of(program, defaults), names, float(defaults.get(_LIMIT, 0.0) or 0.0))
+    worker = _Shares(context, SettingsInForce.of(program, defaults), names, float(defaults.get(_LIMIT, 0.0) or 0.0))
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, lambda body: map_body(body, lambda one: worker.statement(one, editor)))
@@ -76,7 +76,7 @@ class _Shares:
     """`usual`: the highest speed (mm/s) of a controller that is told none."""
 
     context: Context
-    flow: Flow
+    flow: SettingsInForce
     names: frozenset[str]
     usual: float
 

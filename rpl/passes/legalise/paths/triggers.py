@@ -12,7 +12,7 @@ from rpl.passes import rigid
 from rpl.passes.capabilities import TriggerRule
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.paths.storedevents import events_before_moves
 from rpl.passes.legalise.rewriting.earlyways import by_way
@@ -55,7 +55,7 @@ class _Stored:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.scope: Scope | None = None
-        self.flow: Flow | None = None  # of the settings, where the target's rule needs the speed of moves
+        self.flow: SettingsInForce | None = None  # of the settings, where the target's rule needs the speed of moves
         self.declarations: list[ir.Declaration] = []
         self.routines: list[ir.Routine] = []
         self.pending = False  # may the program come here again before the event at hand has come?
@@ -64,7 +64,7 @@ class _Stored:
     def program(self, program: ir.Program) -> ir.Program:
         scopes = ProgramScope(program)
         if rules_of(self.context.target).triggers.early_while_braking:
-            self.flow = Flow.of(program, dict(rules_of(self.context.source).system_defaults))
+            self.flow = SettingsInForce.of(program, dict(rules_of(self.context.source).system_defaults))
         seen = [one for module in program.modules for one in module.declarations if isinstance(one, ir.Variable)]
         everywhere = frozenset(one.name.lower() for one in seen if one.scope == "global")
         return replace(program, modules=tuple(self.module(module, scopes, everywhere) for module in program.modules))

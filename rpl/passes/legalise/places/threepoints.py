@@ -20,7 +20,7 @@ from rpl.passes import rigid
 from rpl.passes.capabilities import PathRule
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.straightplaces import StraightPlaces
 from rpl.passes.legalise.facts.taughtvalues import tell_written
 from rpl.passes.legalise.facts.usage import base_name
@@ -127,7 +127,7 @@ def three_point_arcs(program: ir.Program, context: Context) -> ir.Program:
     if not has_arcs(program):
         return program
     known, ours = unchanged_in(program), _default(context.source)
-    flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
     default = "" if any(isinstance(node, ir.Assign) and node.target == _RULE for node in walk(program)) else ours
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
@@ -145,7 +145,7 @@ class _Arcs:
     context: Context
     editor: Editor
     known: Unchanged
-    flow: Flow
+    flow: SettingsInForce
     default: str  # how the tool turns where the flow is not known; empty: the program sets it
     last: ir.Move | None = None  # the move before, under the same tool and frame
     temporaries: dict[tuple[str, ir.Type], ir.Name] = field(default_factory=dict)

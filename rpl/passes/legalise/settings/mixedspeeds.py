@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
@@ -34,7 +34,7 @@ def mixed_speeds(program: ir.Program, context: Context) -> ir.Program:
     }
     if not mixed:
         return program
-    flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
 
     def change(statement: ir.Statement) -> ir.Body:
         if not isinstance(statement, ir.Move):

@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow, State
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, State
 from rpl.passes.legalise.places.circles import has_arcs
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import with_data
@@ -147,7 +147,7 @@ class _Explicit:
         self.made = _settings_made(program)
         self.never = {"tool", "base"} - self.made
         self.defaults = rules_of(context.source).system_defaults
-        self.flow = Flow.of(program, dict(self.defaults), {"tool": ir.System("null_frame")})
+        self.flow = SettingsInForce.of(program, dict(self.defaults), {"tool": ir.System("null_frame")})
         self.here: State = {}
         self.task = program.modules[0].task  # that moves; what it has set is not known in one beside it
         self.follows = True

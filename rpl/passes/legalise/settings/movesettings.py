@@ -15,8 +15,8 @@ from rpl.diagnostics import Code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting, SettingRule
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import SETTINGS, Flow, State
 from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
+from rpl.passes.legalise.facts.settingsinforce import SETTINGS, SettingsInForce, State
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
 from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
@@ -59,7 +59,7 @@ def settings_at_moves(program: ir.Program, context: Context) -> ir.Program:
 class _Settings:
     source: ir.Program
     context: Context
-    flow: Flow = field(init=False)
+    flow: SettingsInForce = field(init=False)
     here: State = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
     reported: set[tuple[Code, str]] = field(default_factory=set)
@@ -69,7 +69,7 @@ class _Settings:
     def __post_init__(self) -> None:
         several = len({repr(value) for value in _tools(self.source)}) > 1
         self.told = several or SettingRule.TOOL_IN_FORCE not in self.context.capabilities.settings.rules
-        self.flow = Flow.of(self.source, dict(rules_of(self.context.source).system_defaults))
+        self.flow = SettingsInForce.of(self.source, dict(rules_of(self.context.source).system_defaults))
         self.accelerations = Accelerations(self.source, self.context, self.flow.start)
 
     def says(self, name: str) -> bool:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.modal import DROPPED, USUAL
@@ -28,7 +28,7 @@ _TURNING = frozenset(("orientation_mode", "circle_orientation"))
 @legalising(unless=lambda context: not context.capabilities.settings.modal or context.capabilities.settings.of_moves)
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose speeds are all modal; spline moves have settings of their own there."""
-    flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
     reported: set[str] = set()
     always = _said_by_all(program)
 
@@ -58,7 +58,7 @@ def _said_by_all(program: ir.Program) -> frozenset[str]:
 
 
 class _Around:
-    def __init__(self, editor: Editor, flow: Flow, reported: set[str], always: frozenset[str]) -> None:
+    def __init__(self, editor: Editor, flow: SettingsInForce, reported: set[str], always: frozenset[str]) -> None:
         self.editor, self.flow, self.reported, self.always = editor, flow, reported, always
 
     def body(self, body: ir.Body) -> ir.Body:

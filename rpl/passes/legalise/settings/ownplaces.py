@@ -13,7 +13,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
@@ -65,7 +65,7 @@ class _Places:
         self, program: ir.Program, context: Context, moving: frozenset[str], set: frozenset[str], questions: bool
     ) -> None:
         self.context, self.moving, self.set, self.questions = context, moving, set, questions
-        self.flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+        self.flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
         self.names: dict[str, str] = {}
 
     def done(self, program: ir.Program) -> ir.Program:

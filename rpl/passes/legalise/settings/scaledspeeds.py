@@ -14,7 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -67,7 +67,7 @@ def scaled_override(program: ir.Program, context: Context) -> ir.Program:
         return edit_bodies(routine, lambda body: map_body(body, refused))
 
     program = edit_routines(program, context, settings)
-    flow = Flow.of(program, {})
+    flow = SettingsInForce.of(program, {})
 
     def factors(editor: Editor, routine: ir.Routine) -> ir.Routine:
         worker = _Factor(flow, editor)
@@ -90,7 +90,7 @@ def _as_full(program: ir.Program, context: Context) -> ir.Program:
 class _Factor:
     """The rewriting of one routine, whose settings are all constants."""
 
-    flow: Flow
+    flow: SettingsInForce
     editor: Editor
 
     def body(self, body: ir.Body) -> ir.Body:

@@ -16,8 +16,8 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.facts.saidaccelerations import number_of
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.modal import DROPPED
@@ -80,7 +80,7 @@ class _Strengths:
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         can = context.capabilities
-        self.context, self.flow = context, Flow.of(program, dict(rules_of(context.source).system_defaults))
+        self.context, self.flow = context, SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
         said = {name for node in walk(*program.modules) for name in _set(node)}
         self.apart = has_both(context.source) or DOWN in said
         in_numbers = {"path_acceleration", "axis_acceleration"} <= can.settings.speeds

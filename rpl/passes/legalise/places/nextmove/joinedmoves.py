@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import blocks
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.usage import called_names
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -103,7 +103,7 @@ def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.E
         return {}
     if any(isinstance(node, ir.SetForNextMove) for node, _ in changes):
         return None
-    flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
     found: dict[int, ir.Expression | None] = {}
     for move in (one for one in walk(*program.modules) if isinstance(one, ir.Move)):
         if id(move) not in flow.moves or move.blend is not None or any(name == _JOINED for name, _ in move.settings):

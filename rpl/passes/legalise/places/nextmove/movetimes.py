@@ -19,7 +19,7 @@ from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects, blocks
-from rpl.passes.legalise.facts.modalflow import Flow, State
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, State
 from rpl.passes.legalise.facts.whereabouts import Way, Whereabouts
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -94,7 +94,7 @@ class _Facts:
         self.context, self.wanted = context, wanted
         self.ours = dict(rules_of(context.source).system_defaults)
         self.theirs = dict(rules_of(context.target).system_defaults)
-        self.flow = Flow.of(program, self.ours)
+        self.flow = SettingsInForce.of(program, self.ours)
         self.effects = Effects(program)
         self.places = Whereabouts(program, context)
         moves = [one for one in walk(*program.modules) if isinstance(one, ir.Move)]

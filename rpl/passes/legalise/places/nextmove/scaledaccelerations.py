@@ -16,8 +16,8 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
-from rpl.passes.legalise.facts.modalflow import SCALED, Flow, State
 from rpl.passes.legalise.facts.saidaccelerations import number_of
+from rpl.passes.legalise.facts.settingsinforce import SCALED, SettingsInForce, State
 from rpl.passes.legalise.stages import legalising
 
 UNKNOWN = code(
@@ -85,7 +85,7 @@ class _Shares:
     def __init__(self, program: ir.Program, context: Context) -> None:
         self.source, self.context = program, context
         rules = rules_of(context.source)
-        self.flow = Flow.of(program, dict(rules.system_defaults))
+        self.flow = SettingsInForce.of(program, dict(rules.system_defaults))
         self.full = float(rules.system_defaults.get("path_speed", _USUAL_MM_S))
         self.limits = rules_of(context.target).percent_limits.get(UP, (0.0, _FULL))
         self.reported: set[tuple[Code, object]] = set()

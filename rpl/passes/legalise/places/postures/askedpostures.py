@@ -15,7 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.capabilities import Postures
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.flow import ModalFlow
+from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
@@ -63,7 +63,7 @@ class _Asked(Rewriter):
         self.worded = False
         named = {routine.name.lower() for module in program.modules for routine in module.routines}
         self.quiet = named - doing(program, lambda node: isinstance(node, ir.Move | ir.Vendor) or _calls_any(node))
-        self.flow, self.unchanged = ModalFlow(program, self.scopes), unchanged_in(program)
+        self.flow, self.unchanged = FramesInForce(program), unchanged_in(program)
 
     def body(self, body: ir.Body) -> ir.Body:
         self.here, self.seen, self.worded = None, None, False

@@ -18,7 +18,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, array, rules_of
-from rpl.passes.legalise.facts.flow import Use, Uses
+from rpl.passes.legalise.facts.targetuses import Use, Uses
 from rpl.passes.legalise.places.postures.families import changed_posture, differing
 from rpl.passes.legalise.places.postures.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.places.postures.givenjoints import joint_values, with_joints

@@ -16,7 +16,7 @@ from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import ProgramScope
-from rpl.passes.legalise.facts.flow import Uses
+from rpl.passes.legalise.facts.targetuses import Uses
 from rpl.passes.legalise.facts.usage import each_statement
 from rpl.passes.scope import Scope
 from rpl.passes.values import Target

@@ -17,7 +17,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import Postures
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.flow import ModalFlow
+from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
@@ -56,7 +56,7 @@ class _Solved(Rewriter):
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         self.written = JointsOfPlaces(program, context)
-        self.flow, self.unchanged = ModalFlow(program, self.scopes), unchanged_in(program)
+        self.flow, self.unchanged = FramesInForce(program), unchanged_in(program)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         match statement:

@@ -13,7 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.explicit import JOINT_SPEED_BLEND
@@ -53,7 +53,7 @@ class _Corners:
     def __init__(self, program: ir.Program, context: Context) -> None:
         self.context = context
         self.defaults = dict(rules_of(context.source).system_defaults)
-        self.flow = Flow.of(program, self.defaults)
+        self.flow = SettingsInForce.of(program, self.defaults)
         self.settings = context.capabilities.system_variables
         self.reported: set[str] = set()
 

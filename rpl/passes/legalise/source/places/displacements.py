@@ -12,7 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -41,7 +41,7 @@ class _Displacements(Rewriter):
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
-        self.flow = Flow.of(program, dict(rules_of(context.source).system_defaults))
+        self.flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
         self.at = ir.Name(context.fresh("displacement"))
         self.first = next(one for one in program.modules if any(map(_sets, walk(one))))
 

@@ -15,16 +15,15 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.capabilities import PlaceRule, Places
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.forward import Forward, beside, started
-from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, called_below, usage_of
+from rpl.passes.legalise.facts.inforce import InForce
+from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.scope import Scope
 
 __all__ = ["known_shifts"]
 
 _NOWHERE = ir.System("null_frame")
-# Folded name of a variable -> the shift that it holds; a name with `/` behind it: a place that turns nothing.
+# Folded name of a variable -> the shift that it holds; a name as _straight makes it: a place that turns nothing.
 State = Mapping[str, ir.Expression]
 _KNOWN_OF_NONE: State = {}
 
@@ -95,57 +94,33 @@ def _names(expression: ir.Expression | None) -> set[str]:
     return {node.id.lower() for node in walk(expression) if isinstance(node, ir.Name)} if expression else set()
 
 
-class _Moves(Forward[State]):
+class _Moves(InForce[ir.Expression]):
     """`found`: by identity, the moves that are said otherwise."""
 
     def __init__(self, program: ir.Program, shifts: frozenset[str], can: Places) -> None:
-        super().__init__(program, dict.fromkeys(shifts, _NOWHERE), _KNOWN_OF_NONE)
+        super().__init__(program, dict.fromkeys(shifts, _NOWHERE))
         self.shifts, self.can = shifts, can
-        self.below = assigned_below(program)
-        apart = {task.entry.lower() for task in program.tasks if task.kind != "motion"} | set(beside(program))
-        apart |= {task.entry.lower() for task in program.tasks[1:]}
-        self.unsure = {name for one in called_below(program, apart) for name in self.below.get(one, ())}
-        self.start = {name: value for name, value in self.start.items() if name not in self.unsure}
-        self.found: dict[int, ir.Move] = {}
         self.met: dict[int, tuple[ir.Move, ir.Move | None]] = {}
-        self.solve(started(program), beside(program))
+        self.follow_program()
         self.found = {key: new for key, (_, new) in self.met.items() if new is not None}
 
-    def join(self, one: State, other: State) -> State:
-        same = {name: value for name, value in one.items() if other.get(name) == value}
-        return one if len(same) == len(one) else same
-
-    def transfer(self, statement: ir.Statement, before: State) -> State:
-        match statement:
-            case ir.Assign(target=target, value=value) if (name := base_name(target)) is not None:
-                return self.assigned(name, target, value, before)
-            case ir.Do() | ir.Dialog() | ir.WaitUntil() | ir.Clock() | ir.DefineTrigger() | ir.Move(search=ir.Search()):
-                return _without(before, assigned_in((statement,)))
-        return before
-
     def assigned(self, name: str, target: ir.Expression, value: ir.Expression, before: State) -> State:
-        if name in self.unsure:
-            return _without(before, {name})
+        kept = self.without(before, {name})
         match target:
             case ir.Name() if name in self.shifts:
-                return {**_without(before, {name}), name: value}
+                return {**kept, name: value}
             case ir.Field(base=ir.Name(), name=part) if part.lower() in ("x", "y", "z"):
-                turned = f"{name}/"
-                kept = _without(before, {name})
+                turned = _straight(name)
                 return {**kept, turned: before[turned]} if turned in before else kept
             case ir.Name() if _turns_nothing(value):
-                return {**_without(before, {name}), f"{name}/": _NOWHERE}
-        return _without(before, {name})
+                return {**kept, _straight(name): _NOWHERE}
+        return kept
 
-    def left(self, before: State, end: State, routine: ir.Routine, there: Scope, here: Scope) -> State:
-        changed = self.below.get(routine.name.lower(), set())
-        kept = _without(before, changed)
-        return {**kept, **{name: value for name, value in end.items() if name.rstrip("/") in changed}}
+    def rests_on(self, value: ir.Expression) -> set[str]:
+        return _names(value)
 
     def passed(self, call: ir.CallRoutine | ir.Call, state: State) -> State:
-        if not self.meant(call):
-            return _KNOWN_OF_NONE
-        return _without(state, {base_name(one.value) or "" for one in call.arguments if one.value is not None})
+        return super().passed(call, state) if self.meant(call) else _KNOWN_OF_NONE
 
     def note(self, statement: ir.Statement, before: State) -> None:
         if not isinstance(statement, ir.Move):
@@ -188,11 +163,16 @@ class _Moves(Forward[State]):
 
     def is_plain(self, move: ir.Move, state: State, way: ir.Name) -> bool:
         """Does the way turn nothing, and is all of the move said by one target?"""
-        return f"{way.id.lower()}/" in state and move.via is None and move.relative is None
+        return _straight(way.id.lower()) in state and move.via is None and move.relative is None
 
     def along(self, move: ir.Move, place: ir.Expression, way: ir.Name) -> ir.Move:
         parts = (ir.Field(way, part) for part in ("x", "y", "z"))
         return replace(move, target=ir.Builtin("offset", (place, *parts)))
+
+
+def _straight(name: str) -> str:
+    """What a state calls it that a place turns nothing."""
+    return f"{name}[straight]"
 
 
 def _turns_nothing(value: ir.Expression) -> bool:
@@ -207,9 +187,3 @@ def _turns_nothing(value: ir.Expression) -> bool:
 
 def _is_zero(value: ir.Expression) -> bool:
     return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
-
-
-def _without(state: State, names: set[str]) -> State:
-    """The state with nothing known of these variables, nor of shifts by them."""
-    kept = {name: value for name, value in state.items() if name.rstrip("/") not in names and not _names(value) & names}
-    return state if len(kept) == len(state) else kept

@@ -16,8 +16,8 @@ from rpl.ir.walk import walk
 from rpl.passes.capabilities import PathRule
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.modalflow import Flow
 from rpl.passes.legalise.facts.moveorder import pairs_of
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -90,7 +90,7 @@ class _Paths:
     that a move's target is written with, None where it is not known; moves that say none are not in it. `still`: tool
     and frame where the program leaves them as the operator has them."""
 
-    flow: Flow
+    flow: SettingsInForce
     still: dict[str, ir.Expression]
     before: dict[int, list[ir.Move | None]] = field(default_factory=dict)
     turned: dict[int, Rotation | None] = field(default_factory=dict)
@@ -99,7 +99,7 @@ class _Paths:
     def of(program: ir.Program, context: Context) -> _Paths:
         changed = {node.target for node in walk(program) if isinstance(node, ir.Assign)}
         still = {name: ir.System(name) for name in ("tool", "base") if ir.System(name) not in changed}
-        found = _Paths(Flow.of(program, dict(rules_of(context.source).system_defaults)), dict(still))
+        found = _Paths(SettingsInForce.of(program, dict(rules_of(context.source).system_defaults)), dict(still))
         splines = any(isinstance(node, ir.Spline) for node in walk(program))  # they stand between moves that are a pair
         for pair in pairs_of(program):
             if pair.second is not None:

@@ -1,4 +1,5 @@
-"""What modal settings are at each move: constants carried through branches, loops and calls of the whole program.
+"""Which settings are in force at each move, as the program says them: constants carried through branches, loops and
+calls of the whole program.
 
 A setting is known where every way to the place has set the same constant (a literal, or data that nothing assigns).
 Routines are entered with what all their calls have in common, and leave with what they have set.
@@ -6,14 +7,14 @@ Routines are entered with what all their calls have in common, and leave with wh
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.facts.forward import Forward, beside, reactions, started
 from rpl.passes.legalise.facts.heldtexts import known_calls
-from rpl.passes.legalise.facts.usage import Usage, doing_each, each_expression, usage_of
+from rpl.passes.legalise.facts.inforce import InForce
+from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
 from rpl.passes.scope import Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
@@ -45,6 +46,7 @@ _NUMBERS = BRAKING.keys() | _SHARES.keys() | _TIMES.keys()
 _FOLLOWED = SETTINGS | _NUMBERS | SCALED.keys() | _TURNING | {"displacement", _TURNS, _KEEPS, _JOINED, _DOWN}
 # Setting -> constant; None: it depends on the run. A place that is never reached has no state.
 State = dict[str, "ir.Expression | None"]
+Held = Mapping[str, ir.Expression]  # what of it is known, with a `$` in front
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
 
 
@@ -85,7 +87,7 @@ def _plainly_reads(statement: ir.Statement) -> bool:
 
 
 @dataclass(slots=True)
-class Flow:
+class SettingsInForce:
     """`start`: the settings at the beginning of a program."""
 
     usage: Usage
@@ -98,16 +100,14 @@ class Flow:
     @classmethod
     def of(
         cls, program: ir.Program, defaults: dict[str, float | bool | str], begins: Mapping[str, ir.Expression] = {}
-    ) -> Flow:
+    ) -> SettingsInForce:
         """Follow the program; `defaults` are the system variables of its language at the start, `begins` what else the
         target begins with."""
         program = known_calls(program)
-        setters = _setters(program)
-        unsure = _set_at_any_time(program, setters)
         start: State = {name: _default(name, defaults) for name in _FOLLOWED} | dict(begins)
-        flow = cls(usage_of(program), start)
-        _Settings(program, flow, setters, unsure).solve(started(program), beside(program))
-        return flow
+        found = cls(usage_of(program), start)
+        _Settings(program, found)
+        return found
 
     def arc_rule(self, move: ir.Move) -> str:
         """How the tool turns on an arc that does not say it: `base`, `path`; empty text: it hangs on the run."""
@@ -139,54 +139,51 @@ def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expressio
     return ir.RealLiteral(float(value)) if isinstance(value, int | float) else None
 
 
-class _Settings(Forward[State]):
-    """`setters`: setting -> routines that change it. `unsure`: what may change between any two statements."""
+class _Settings(InForce[ir.Expression]):
+    """States have the followed settings with a `$` in front, where they are known."""
 
-    def __init__(
-        self, program: ir.Program, flow: Flow, setters: dict[str, frozenset[str]], unsure: frozenset[str]
-    ) -> None:
-        super().__init__(program, flow.start | dict.fromkeys(unsure & _FOLLOWED), _UNKNOWN)
-        self.flow, self.setters, self.unsure = flow, setters, unsure
+    def __init__(self, program: ir.Program, found: SettingsInForce) -> None:
+        start = {f"${name}": value for name, value in found.start.items() if value is not None}
+        super().__init__(program, start)
+        self.found = found
+        self.plain: dict[int, tuple[Mapping[str, ir.Expression], State]] = {}
+        self.follow_program()
 
-    def join(self, one: State, other: State) -> State:
-        lost = [name for name, value in one.items() if value is not None and value != other[name]]
-        return {**one, **dict.fromkeys(lost)} if lost else one
+    def assigned(self, name: str, target: ir.Expression, value: ir.Expression, before: Held) -> Held:
+        if name[1:] not in _FOLLOWED or not name.startswith("$"):
+            return before
+        new = self.stable(value) if isinstance(target, ir.System) else None
+        if new is None:
+            return self.without(before, {name})
+        return before if before.get(name) is new else {**before, name: new}
 
-    def transfer(self, statement: ir.Statement, before: State) -> State:
-        match statement:
-            case ir.Assign(target=ir.System(name=name)) if name in _FOLLOWED:
-                new = self.set_to(statement)
-                return before if before[name] is new else {**before, name: new}
-        return before
-
-    def set_to(self, statement: ir.Assign) -> ir.Expression | None:
-        target = statement.target
-        return None if isinstance(target, ir.System) and target.name in self.unsure else self.stable(statement.value)
-
-    def note(self, statement: ir.Statement, before: State) -> None:
+    def note(self, statement: ir.Statement, before: Held) -> None:
         match statement:
             case ir.Assign(target=ir.System(name=name)) if name in _FOLLOWED:
                 if name not in (_TURNS, _KEEPS, _JOINED, _DOWN, "override", *_TIMES, *_TURNING):
-                    new = self.set_to(statement)
-                    same = new is not None and before[name] == new
-                    self.flow.repeated[id(statement)] = same and self.flow.repeated.get(id(statement), True)
+                    known = before.get(f"${name}")
+                    same = known is not None and known == self.stable(statement.value)
+                    self.found.repeated[id(statement)] = same and self.found.repeated.get(id(statement), True)
             case ir.Move():
                 pass
             case _ if not in_frame(statement) and not _plainly_reads(statement):
                 return
-        self.flow.kept.append(statement)
+        self.found.kept.append(statement)
         if self.reaching:
-            self.flow.reached.add(id(statement))
-        known = self.flow.moves.get(id(statement))
-        self.flow.moves[id(statement)] = before if known is None else self.join(known, before)
+            self.found.reached.add(id(statement))
+        state, known_before = self.said(before), self.found.moves.get(id(statement))
+        self.found.moves[id(statement)] = state if known_before is None else _both(known_before, state)
 
-    def entered(self, state: State, here: Scope, there: Scope) -> State:
-        return {name: _carried(value, here, there) for name, value in state.items()}
+    def said(self, held: Held) -> State:
+        """Every followed setting by its name."""
+        done = self.plain.get(id(held))
+        if done is None:
+            self.plain[id(held)] = done = held, {name: held.get(f"${name}") for name in _FOLLOWED}
+        return done[1]
 
-    def left(self, before: State, end: State, routine: ir.Routine, there: Scope, here: Scope) -> State:
-        name = routine.name.lower()
-        changed = {one: _carried(end[one], there, here) for one in _FOLLOWED if name in self.setters[one]}
-        return {**before, **changed} if changed else before
+    def brought(self, state: Held, home: Scope, there: Scope) -> Held:
+        done = ((name, _carried(value, home, there)) for name, value in state.items())
+        return {name: value for name, value in done if value is not None}
 
     # ---- constants
 
@@ -213,15 +210,21 @@ class _Settings(Forward[State]):
                 symbol = self.scope.value(name)
                 if symbol is None or symbol.routine is not None or not isinstance(symbol.declaration, ir.Variable):
                     return None
-                fixed = symbol.declaration.storage == "constant" or name.lower() not in self.flow.usage.assigned
+                fixed = symbol.declaration.storage == "constant" or name.lower() not in self.found.usage.assigned
                 return value if fixed else None
         return None
 
 
-def _carried(value: ir.Expression | None, home: Scope, there: Scope) -> ir.Expression | None:
+def _both(one: State, other: State) -> State:
+    """What two ways have in common."""
+    lost = [name for name, value in one.items() if value is not None and value != other[name]]
+    return {**one, **dict.fromkeys(lost)} if lost else one
+
+
+def _carried(value: ir.Expression, home: Scope, there: Scope) -> ir.Expression | None:
     """A constant of one routine as another one says it: what has no name there, or a name for something else, is said
     by its value, as far as that is written at its declaration."""
-    if value is None or all(
+    if all(
         (here := home.value(one.id)) is not None
         and (seen := there.value(one.id)) is not None
         and seen.declaration is here.declaration
@@ -233,28 +236,3 @@ def _carried(value: ir.Expression | None, home: Scope, there: Scope) -> ir.Expre
     written = symbol.declaration.initial if symbol and isinstance(symbol.declaration, ir.Variable) else None
     named = any(isinstance(one, ir.Name | ir.Index | ir.Field) for one in walk(written)) if written else True
     return None if named else written
-
-
-def _set_at_any_time(program: ir.Program, setters: dict[str, frozenset[str]]) -> frozenset[str]:
-    """Settings that interrupts, triggers and error routines change: at no place anything is known of them."""
-    found: set[str] = set()
-    reacting = {name.lower() for name in reactions(program)}
-    for node in walk(*program.modules):
-        match node:
-            case ir.DeclareInterrupt(action=ir.Assign(target=ir.System(name=setting))):
-                found.add(setting)
-            case ir.Trigger(action=ir.Assign(target=ir.System(name=setting))):
-                found.add(setting)
-    return frozenset(found | {name for name, routines in setters.items() if not routines.isdisjoint(reacting)})
-
-
-def _setters(program: ir.Program) -> dict[str, frozenset[str]]:
-    """Setting -> routines that change it, themselves or by what they call; behind others it is as before."""
-
-    def sets(node: object) -> Iterable[str]:
-        match node:
-            case ir.Assign(target=ir.System(name=setting)) if setting in _FOLLOWED:
-                return (setting,)
-        return ()
-
-    return doing_each(program, sets, _FOLLOWED)
