@@ -98,9 +98,9 @@ def without_notes(text: str) -> tuple[str, tuple[Note, ...]]:
                     found.append(Note("PR", int(inner), text[colon + 1 : component.start()].strip()))
                 at = end
                 continue
-        number = re.search(r"\d+\Z", inner)
+        number = re.search(r"(\d+)(?:\s*,\s*\d+)?\Z", inner)  # `PR[1,2:pick]` is element 2 of the register called pick
         if bank and number:
-            found.append(Note(bank[1].upper(), int(number[0]), text[colon + 1 : end].strip()))
+            found.append(Note(bank[1].upper(), int(number[1]), text[colon + 1 : end].strip()))
         at = end
     parts.append(text[at:])
     return "".join(parts), tuple(found)

@@ -85,9 +85,18 @@ def test_numbered_tools_and_frames_have_their_names_or_numbers() -> None:
     read = read_sources([source_from_text(name, text) for name, text in files.items()], "krl", Diagnostics())
     done = translate_program(read, "rapid", "kuka_kr6r900sixx", None, Diagnostics())
     text = "\n".join(file.data.decode() for file in done.files)
-    assert moves(text) == ["vmax,fine,tool1;", "v300,fine,tool1\\WObj:=wobj2;"], text
-    assert "PERS tooldata tool1:=[TRUE,[[0,0,150]," in text and "BASE_DATA" not in text
+    assert moves(text) == ["vmax,fine,tVacuumCup;", "v300,fine,tVacuumCup\\WObj:=wobj2;"], text
+    assert "PERS tooldata tVacuumCup:=[TRUE,[[0,0,150]," in text and "_DATA" not in text and "_NAME" not in text
     assert 'PERS wobjdata wobj2:=[FALSE,TRUE,"",[[350,150,20],' in text
+
+
+def test_a_tool_whose_name_is_a_word_keeps_it() -> None:
+    lines = ("DEF m()", "$TOOL=TOOL_DATA[1]", "$BASE=BASE_DATA[2]", HOME, "$VEL.CP=0.3", "LIN XP", "END")
+    config = CONFIG.replace("vacuum cup", "cup_2")
+    files = {"m.src": "\n".join(lines), "m.dat": DATA, "$config.dat": config}
+    read = read_sources([source_from_text(name, text) for name, text in files.items()], "krl", Diagnostics())
+    done = translate_program(read, "rapid", "kuka_kr6r900sixx", None, Diagnostics())
+    assert moves("\n".join(file.data.decode() for file in done.files))[-1] == "v300,fine,cup_2\\WObj:=wobj2;"
 
 
 LISTINGS = {

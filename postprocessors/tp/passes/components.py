@@ -58,6 +58,8 @@ def _is_taught(base: ir.Expression, editor: Editor, known: Unchanged) -> bool:
     name = base_name(base)
     if name is None or name in known.assigned or not isinstance(base, ir.Name | ir.Index):
         return False
+    if name in editor.context.unknown:
+        return False  # data that no file gives is a register, whose elements are read as they are
     symbol = editor.scope.value(name)
     return symbol is not None and (symbol.module is not None or symbol.routine is not None)
 

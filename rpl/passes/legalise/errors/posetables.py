@@ -1,8 +1,9 @@
 """Tables of tools and frames (TOOL_DATA[n], UFRAME[n]) as data with names of their own, where moves name such data.
 
 Only a table of which each use says its element by a number is taken apart; elements that nothing uses vanish with it. A
-name comes from the table of names beside it (TOOL_NAME for TOOL_DATA), else the number stays: tool1, wobj3. A number in
-force that the source keeps beside and that nothing reads goes too.
+name comes from the table of names beside it (TOOL_NAME for TOOL_DATA): a word as it is, several as one behind the kind
+(tVacuumCup). Else the number stays: tool1, wobj3. A number in force that the source keeps beside and that nothing reads
+goes too.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.framenumbers import Element, element_of, said_numbers
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.legalise.storage.unused import without_unused
 from rpl.passes.scope import ProgramScope
 from rpl.passes.values import pose_of
 from rpl.source import Origin
@@ -27,6 +29,7 @@ from rpl.source import Origin
 _STEMS = {"tool": ("tool", "t"), "base": ("wobj", "wobj")}  # without and with a name
 _PLAIN_STEMS = {"tool": ("tool", "tool"), "base": ("frame", "frame")}  # where they are plain poses
 _DATA, _NAMES = "data", "name"  # how a table and the one with its names end
+_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
 @legalising(unless=lambda context: not _named(context.capabilities.settings), sees=("Index",))
@@ -37,6 +40,23 @@ def poses_of_tables(program: ir.Program, context: Context) -> ir.Program:
     if not tables:
         return program
     return _Tables(program, context, tables, kinds).program()
+
+
+@legalising()
+def drop_called_ahead(program: ir.Program, context: Context) -> ir.Program:
+    """The program without the unused parts of its prelude: routines that are evaluated read its tables no more. The
+    names beside tables of poses stay where those get names from them, right behind."""
+    if not _named(context.capabilities.settings):
+        return without_unused(program, context)
+    declared = (one for module in program.modules for one in module.declarations if isinstance(one, ir.Variable))
+    return without_unused(
+        program, context, frozenset(_names_beside(one.name.lower()) for one in declared if _is_table(one.type))
+    )
+
+
+def _names_beside(table: str) -> str:
+    """The table, by its folded name, with the names of this one's elements; empty: there is none."""
+    return table.removesuffix(_DATA) + _NAMES if table.endswith(_DATA) else ""
 
 
 def _named(settings: Settings) -> bool:
@@ -156,7 +176,10 @@ class _Tables:
         if kind is None:
             return ir.Name(self.context.fresh(f"{self.tables[element[0]].name}{number}"))
         bare, stem = (_STEMS if self.context.capabilities.settings.no_tool else _PLAIN_STEMS)[kind]
-        word = self.word(element)
+        text = self.word(element)
+        if _IDENTIFIER.fullmatch(text) and text.lower() != f"{bare}{number}":
+            return ir.Name(self.context.fresh(text))
+        word = "".join(word[:1].upper() + word[1:] for word in re.findall(r"[A-Za-z0-9]+", text))
         return ir.Name(self.context.fresh(f"{stem}{word}" if word else f"{bare}{number}"))
 
     def is_nowhere(self, element: Element) -> bool:
@@ -166,11 +189,8 @@ class _Tables:
         return element not in self.assigned and (first is None or pose_of(constant(first, scope)) == rigid.IDENTITY)
 
     def word(self, element: Element) -> str:
-        """What the table of names beside it says, as a part of a name: `vacuum` is Vacuum."""
-        table = element[0]
-        if not table.endswith(_DATA):
-            return ""
-        names = table.removesuffix(_DATA) + _NAMES
+        """What the table of names beside it says; empty: nothing."""
+        names = _names_beside(element[0])
         for module in self.source.modules:
             for one in module.declarations:
                 match one:
@@ -180,8 +200,7 @@ class _Tables:
                             value=ir.TextLiteral(value=text),
                         )
                     ) if (name.lower(), at) == (names, element[1]):
-                        words = re.findall(r"[A-Za-z0-9]+", text)
-                        return "".join(word[:1].upper() + word[1:] for word in words)
+                        return text
         return ""
 
     def first(self, element: Element) -> ir.Expression | None:

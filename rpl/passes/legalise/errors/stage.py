@@ -12,13 +12,12 @@ from rpl.passes.legalise.errors.errortexts import error_texts
 from rpl.passes.legalise.errors.interruptplaces import interrupt_places
 from rpl.passes.legalise.errors.knowncalls import known_calls
 from rpl.passes.legalise.errors.ownrecords import apart_from_neutral_records
-from rpl.passes.legalise.errors.posetables import poses_of_tables
+from rpl.passes.legalise.errors.posetables import drop_called_ahead, poses_of_tables
 from rpl.passes.legalise.errors.possiblecases import possible_cases
 from rpl.passes.legalise.errors.prelude import link_prelude
 from rpl.passes.legalise.errors.usedelements import used_elements
 from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
-from rpl.passes.legalise.storage.unused import drop_unused
 
 STAGE = Stage(
     "errors",
@@ -29,7 +28,7 @@ STAGE = Stage(
         link_prelude,
         apart_from_neutral_records,
         known_calls,
-        again(drop_unused, "routines of the prelude whose calls are evaluated read nothing more"),
+        drop_called_ahead,
         poses_of_tables,
         without_bookkeeping,
         used_elements,

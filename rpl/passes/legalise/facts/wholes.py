@@ -33,6 +33,7 @@ _WHOLE_SYSTEM = frozenset(("error_number", "interrupt_number"))
 # Procedures whose written arguments get numbers of any kind.
 _PARSERS = frozenset(("parse_number", "parse_value", "scan_from"))
 _WORD = re.compile(r"[A-Za-z_]\w*")
+_NOTE = re.compile(r":[^\]:]*\]")  # `R[1:count]`: what a controller shows of a register is no name in the text
 Key = int | tuple[int, str]
 
 
@@ -286,7 +287,7 @@ class _Collector:
             case ir.Dialog(answer=answer, kind="number"):
                 self.fractional(answer)
             case ir.Vendor(text=text):
-                for word in set(_WORD.findall(text)):
+                for word in set(_WORD.findall(_NOTE.sub("]", text))):
                     self.fractional(ir.Name(word))
         rewrite_parts(statement, self.expression, self.body)
 

@@ -11,6 +11,7 @@ from rpl.passes.legalise.source.fixeddata import fixed_data
 from rpl.passes.legalise.source.grownarrays import grown_arrays
 from rpl.passes.legalise.source.keptvalues import kept_values_known
 from rpl.passes.legalise.source.knownlimits import known_limits
+from rpl.passes.legalise.source.labellednames import labels_as_names
 from rpl.passes.legalise.source.loadvariables import load_variables
 from rpl.passes.legalise.source.namedflags import named_flags
 from rpl.passes.legalise.source.neutralfunctions import neutral_functions
@@ -57,6 +58,7 @@ STAGE = Stage(
         unknown_pulses,
         kept_values_known,
         undeclared_data,
+        labels_as_names,
         signal_words,
         fixed_data,
         names_of_local_routines,

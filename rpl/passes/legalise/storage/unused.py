@@ -25,6 +25,11 @@ NOT_USED = code(
 @legalising()
 def drop_unused(program: ir.Program, context: Context) -> ir.Program:
     """The program without unused data, types and routines of linked preludes."""
+    return without_unused(program, context)
+
+
+def without_unused(program: ir.Program, context: Context, wanted: frozenset[str] = frozenset()) -> ir.Program:
+    """The same. wanted: names, folded, of data that a later pass reads though nothing in the program does."""
     parts: list[ir.Declaration | ir.Routine] = []
     own = []
     for module in program.modules:
@@ -36,7 +41,7 @@ def drop_unused(program: ir.Program, context: Context) -> ir.Program:
     if not parts:
         return program
     used = mentioned(replace(program, modules=tuple(own)))
-    used |= {called_as(program.entry), *(called_as(task.entry) for task in program.tasks)}
+    used |= wanted | {called_as(program.entry), *(called_as(task.entry) for task in program.tasks)}
     kept: set[int] = set()
     size = -1
     while size != len(kept):
@@ -113,4 +118,4 @@ def _declares(one: ir.Declaration | ir.Routine) -> set[str]:
     return {one.name.lower()}
 
 
-__all__ = ["drop_idle_data", "drop_unused"]
+__all__ = ["drop_idle_data", "drop_unused", "without_unused"]
