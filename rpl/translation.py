@@ -26,7 +26,7 @@ from rpl.project import ReadProgram
 from rpl.showing import counted, folded, heading, line, table
 from rpl.source import NOWHERE, decode
 from rpl.writing.beside import report_beside
-from rpl.writing.entries import first_routine, name_entry, unpinned
+from rpl.writing.entries import asks_for_name, first_routine, name_entry, unpinned
 from rpl.writing.lineorigins import LineOrigins, line_origins
 from rpl.writing.namemap import NameMap, check_map
 from rpl.writing.names import NO_MAP, named, rename, rename_hiding, renamed_twice
@@ -186,7 +186,7 @@ def _translated(
     if source != target_name:
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
-        first = first_routine(whole) if capabilities.names.entry else None
+        first = first_routine(whole) if asks_for_name(capabilities.names) else None
         kept = unpinned(earlier, capabilities.names)
         legal_program = legalise(whole, context, target.passes())
         taken, numbered = frozenset(context.there.names), bool(capabilities.storage.banks)

@@ -94,7 +94,6 @@ CAPABILITIES = Capabilities(
         wait_timeout=True,
         shortest_wait_s=0.01,
         last_flag=0,
-        group_sizes=(8, 4),
         widest_group=16,
         poll_s=tables.WATCH_STEP_S,
         pulses=frozenset((PulseRule.COMPUTED_TIME,)),

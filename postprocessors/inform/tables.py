@@ -89,6 +89,7 @@ LONGEST_TEXT: Final = 32  # M: 16 before the DX200
 LONGEST_MESSAGE: Final = 32
 LONGEST_NAME: Final = 32
 LONGEST_LINE: Final = 128  # M
+GROUP_SIZES: Final = (8, 4)  # signals of a group: IG#, IGH# and kin
 WATCH_STEP_S: Final = 0.01  # the shortest TIMER
 MOST_SUBTASKS: Final = 5  # M
 RESERVED: Final = frozenset(("all", "end", "nop"))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from rpl.ir.types import NamedType
 from rpl.passes.capabilities import (
+    AS_MODULE,
     ActionArguments,
     Aggregate,
     Background,
@@ -61,7 +61,7 @@ CAPABILITIES = Capabilities(
         "function parse_value": "StrToReal and kin beside a BOOL",
     },
     names=NameRules(
-        started_as_module=True,
+        entry=AS_MODULE,
         longest=24,
         case_sensitive=False,
         reserved=tables.RESERVED,
@@ -84,8 +84,8 @@ CAPABILITIES = Capabilities(
         rules=frozenset((InterruptRule.SINGLE_DISABLES,)),
     ),
     tasks=Tasks(background=Background.SHARED, moving=False),
-    io=Io(widest_group=32, timers=64, groups=frozenset((GroupRule.COMPUTED, GroupRule.DECLARED, GroupRule.FREE))),
-    texts=Texts(room=(tables.DEFAULT_TEXT_CAPACITY, tables.LONGEST_TEXT), format_state=NamedType("STATE_T")),
+    io=Io(widest_group=32, timers=64, groups=frozenset((GroupRule.FREE,))),  # each declared (passes/groups.py)
+    texts=Texts(room=(tables.DEFAULT_TEXT_CAPACITY, tables.LONGEST_TEXT)),
     data=Data(
         composites=frozenset((Composite.ARRAYS, Composite.ENUMS, Composite.RECORDS)),
         aggregates=frozenset((Aggregate.CONSTANT, Aggregate.NAMED, Aggregate.PARTIAL)),

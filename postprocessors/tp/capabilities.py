@@ -131,7 +131,6 @@ CAPABILITIES = Capabilities(
         pulses=frozenset(),
     ),
     texts=Texts(
-        joined=tables.LONGEST_PLAIN + 1,
         longest_message=tables.LONGEST_MESSAGE,
         rules=frozenset((TextRule.COMPUTED_DECIMALS, TextRule.PRINTABLE)),
         messages=frozenset(),

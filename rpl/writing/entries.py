@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
+from rpl.passes.capabilities import AS_MODULE
 from rpl.passes.legalise.facts.entries import background, moving_entries
 from rpl.writing.namemap import NameMap
 from rpl.writing.names import renamed_routine
@@ -22,7 +23,7 @@ def name_entry(
 ) -> tuple[ir.Program, dict[str, str]]:
     """The program whose routine `first` has the name that the controller starts, and old name -> that name. taken:
     names on the robot that will run it."""
-    if not rules.entry:
+    if not asks_for_name(rules):
         return program, {}
     changed: dict[str, str] = {}
     routines = {one.name.lower() for module in _foreground(program) for one in module.routines}
@@ -33,10 +34,15 @@ def name_entry(
     return _with_own_modules(program, rules, there), changed
 
 
+def asks_for_name(rules: NameRules) -> bool:
+    """Does the controller start a routine of one fixed name?"""
+    return rules.entry not in ("", AS_MODULE)
+
+
 def unpinned(earlier: NameMap, rules: NameRules) -> NameMap:
     """The map without the name that the controller asks for: who has it is found anew, and its module may be called
     like the source's routine."""
-    names = {old: new for old, new in earlier.names.items() if not rules.entry or new.lower() != rules.entry}
+    names = {old: new for old, new in earlier.names.items() if not asks_for_name(rules) or new.lower() != rules.entry}
     return earlier if len(names) == len(earlier.names) else replace(earlier, names=names)
 
 

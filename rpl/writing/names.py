@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from rpl import ir
 from rpl.ir.walk import bodies
+from rpl.passes.capabilities import AS_MODULE
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -32,7 +33,7 @@ def rename(
     that the target does not accept."""
     collector = _Collector()
     collector.program(program)
-    started = _started(program, collector) if rules.started_as_module else {}
+    started = _started(program, collector) if rules.entry == AS_MODULE else {}
     pinned = _pinned(collector, rules, earlier, hiding, frozenset(started))
     if taken:
         shared = (name for name in shared_names(program, numbered) if name not in started)

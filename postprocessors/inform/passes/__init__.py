@@ -3,16 +3,19 @@ writer."""
 
 from __future__ import annotations
 
-from rpl.passes.legalise.stages import Placed
+from rpl.passes.legalise.stages import Placed, again
 
 from .dialogs import number_dialogs
 from .flagbytes import flags_in_bytes
 from .framenumbers import frame_numbers
+from .groupsizes import groups_in_sizes
 from .shiftedpoints import shifted_points
 from .watches import counted_watches
 
 PASSES: tuple[Placed, ...] = (
     Placed(counted_watches, "io", behind="timers_to_clocks"),
+    Placed(groups_in_sizes, "io", behind="shared_groups_to_bits"),
+    Placed(again(groups_in_sizes, "some have their numbers by now"), "io", behind="groups_to_bits"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(shifted_points, "settings", behind="stand_first"),
     Placed(number_dialogs, "statements", behind="decide_logic"),

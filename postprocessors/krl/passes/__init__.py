@@ -12,10 +12,12 @@ from .roomytexts import roomy_texts
 from .shifts import said_shifts
 from .signalnames import signals_by_name
 from .startbases import start_bases
+from .writestates import states_of_writes
 
 PASSES: tuple[Placed, ...] = (
     Placed(changed_places, "source", behind="whole_settings"),
     Placed(name_groups, "io", behind="number_signals"),
+    Placed(states_of_writes, "statements", behind="rewrite_calls"),
     Placed(start_bases, "settings", behind="explicit_to_modal"),
     Placed(said_shifts, "settings", behind="stand_first"),
     Placed(frame_numbers, "settings", behind="stand_first"),

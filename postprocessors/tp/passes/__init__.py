@@ -11,6 +11,7 @@ from .composition import compositions
 from .exactends import exact_ends
 from .filledplaces import filled_places
 from .framenumbers import frame_numbers
+from .joinedtexts import joined_texts
 from .limitedwaits import limited_waits
 from .longlogic import long_logic
 from .moveplaces import places_of_moves
@@ -28,6 +29,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(read_components, "control", behind="fit_loops"),
     Placed(arguments_in_registers, "control", behind="fit_loops"),
     Placed(long_logic, "control", behind="fit_loops"),
+    Placed(joined_texts, "control", behind="steps"),
     Placed(zero_places, "storage", before="unread_flags"),
     Placed(limited_waits, "storage", before="unread_flags"),
 )

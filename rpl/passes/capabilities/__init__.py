@@ -6,7 +6,7 @@ from rpl.passes.capabilities.errors import Errors, Fault
 from rpl.passes.capabilities.interrupts import ActionArguments, InterruptRule, Interrupts, Watched
 from rpl.passes.capabilities.io import GroupRule, Io, PulseRule
 from rpl.passes.capabilities.motion import Concurrent, Motion, PathRule, SearchResult, TriggerRule, TurnedWay
-from rpl.passes.capabilities.names import NameRules
+from rpl.passes.capabilities.names import AS_MODULE, NameRules
 from rpl.passes.capabilities.places import PlaceRule, Places, Postures
 from rpl.passes.capabilities.record import Capabilities
 from rpl.passes.capabilities.routines import Local, Parameters, Passing, RoutineRule, Routines
@@ -16,6 +16,7 @@ from rpl.passes.capabilities.tasks import Background, Tasks
 from rpl.passes.capabilities.texts import MessageRule, TextRule, Texts
 
 __all__ = [
+    "AS_MODULE",
     "ActionArguments",
     "Aggregate",
     "Background",

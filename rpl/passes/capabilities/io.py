@@ -11,15 +11,12 @@ class GroupRule(StrEnum):
     """What a group of signals can be. Where signals have names (`signal_prefixes`), a group has one of its own; groups
     of which a part is used otherwise are written bit by bit."""
 
-    DECLARED = auto()
-    """It exists only by a declaration with a name (KRL SIGNAL)."""
-
     FREE = auto()
     """It can be named by its first and last signal, or a pass or the writer finds a name for it."""
 
     COMPUTED = auto()
-    """It may have computed numbers. Without this, or where groups are declared or have names, such groups of a constant
-    width are written bit by bit."""
+    """It may have computed numbers (else such groups of a constant width are written bit by bit, as where signals have
+    names)."""
 
     NUMBERED = auto()
     """It has a number of its own beside those of its bits (GO[2])."""
@@ -45,9 +42,6 @@ class Io:
     last number and what the data has more than the number (V+: 1 to 512 are inputs 1001 to 1512)."""
 
     groups: frozenset[GroupRule] = frozenset((GroupRule.FREE, GroupRule.COMPUTED))
-
-    group_sizes: tuple[int, ...] = ()
-    """A group has so many signals and begins behind a multiple of them (empty: any)."""
 
     widest_group: int = 8
     """Bits of a group at most, where a program shows that eight are not enough."""

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
+
+AS_MODULE: Final = "<module>"
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +32,6 @@ class NameRules:
     """Names (lower case) of the data and routines every controller has; a program's own of that name would hide it, so
     it gets another. Those that passes bring along keep their spelling."""
 
-    started_as_module: bool = False
-    """A routine `main` bears the name of its module: that is what the operator selects and starts."""
-
     entry: str = ""
     """The name of the routine that the controller starts, where it asks for one; its modules are called like nothing
-    else in the program then."""
+    else in the program then. AS_MODULE: that of its module, which the operator selects and starts."""

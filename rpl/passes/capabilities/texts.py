@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum, auto
 
-from rpl.ir.types import Type
-
 
 class TextRule(StrEnum):
     """What is true of texts."""
@@ -61,12 +59,6 @@ class Texts:
     longest_message: int = 0
     """Characters of a message's line (0: any)."""
 
-    joined: int = 0
-    """Texts that one assignment joins at most (0: any)."""
-
     room: tuple[int, int] | None = None
     """Each text is declared with its longest length: what it gets where nothing says more, and the most that the
     controller's own functions take."""
-
-    format_state: Type | None = None
-    """Type of the state that format_into writes; None when it has none."""

@@ -22,9 +22,9 @@ from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.rewriting.operands import changing, is_number, is_operand, opposite
+from rpl.passes.legalise.rewriting.polling import seconds_of
 from rpl.passes.legalise.rewriting.walk import POLL_S, POLLED
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.statements.polling import seconds_of
 from rpl.passes.rewrite import rewrite_parts
 
 TIMED = code("timed-wait-computed", Severity.LOSS, "a wait for a computed condition loses its time limit")
@@ -193,16 +193,11 @@ class _Steps(Hoister):
         while isinstance(pieces[0], ir.Binary) and pieces[0].op == "&":
             pieces[:1] = [pieces[0].left, pieces[0].right]
         before, values = self.several(pieces, [False] * len(pieces))
-        most = self.can.texts.joined or len(values)
-        if len(values) <= most and all(new is old for new, old in zip(values, pieces, strict=True)):
+        if all(new is old for new, old in zip(values, pieces, strict=True)):
             return before, expression
-        done, count = values[0], 1
+        done = values[0]
         for one in values[1:]:
-            if count == most:
-                name = self.temporary(ir.StringType())
-                before = (*before, ir.Assign(name, done, origin=replace(expression.origin, comments=())))
-                done, count = name, 1
-            done, count = ir.Binary("&", done, one, origin=expression.origin), count + 1
+            done = ir.Binary("&", done, one, origin=expression.origin)
         return before, done
 
     simple_parts = False

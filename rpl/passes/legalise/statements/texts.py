@@ -160,10 +160,8 @@ class TextHoister(Hoister):
         if made is None:
             return None
         template, values = made
-        state_type = self.editor.capabilities.texts.format_state
-        state = self.shared("state", state_type) if state_type is not None else None
         offset = self.shared("offset", ir.IntType())
-        call = ir.Do("format_into", (target, state, offset, ir.TextLiteral(template), *values))
+        call = ir.Do("format_into", (target, None, offset, ir.TextLiteral(template), *values))
         return (ir.Assign(target, ir.TextLiteral("")), ir.Assign(offset, ir.IntLiteral(0)), call)
 
     def shared(self, stem: str, type: ir.Type) -> ir.Name:
