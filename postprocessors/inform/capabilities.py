@@ -110,7 +110,6 @@ CAPABILITIES = Capabilities(
         locals=frozenset((Local.CLOCKS, Local.STATICS)),
     ),
     control=Control(
-        condition_terms=tables.SURE_TERMS,
         limits=frozenset((Limit.COMPARISONS, Limit.FUNCTIONS_ALONE, Limit.PLAIN_PLACES, Limit.STEPS)),
     ),
     storage=Storage(

@@ -59,8 +59,7 @@ CAPABILITIES = Capabilities(
     settings=Settings(
         modal=False,
         rules=frozenset((SettingRule.ASKED_FRAME, SettingRule.TOOL_IN_FORCE)),
-        no_tool="tool0",
-        no_frame="wobj0",
+        bare=("tool0", "wobj0"),
     ),
     tasks=Tasks(background=Background.SEPARATE, moving=False, places_beside=True),
     io=Io(

@@ -9,6 +9,7 @@ from .dialogs import number_dialogs
 from .flagbytes import flags_in_bytes
 from .framenumbers import frame_numbers
 from .groupsizes import groups_in_sizes
+from .longconditions import short_conditions
 from .shiftedpoints import shifted_points
 from .watches import counted_watches
 
@@ -18,6 +19,8 @@ PASSES: tuple[Placed, ...] = (
     Placed(again(groups_in_sizes, "some have their numbers by now"), "io", behind="groups_to_bits"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(shifted_points, "settings", behind="stand_first"),
+    Placed(short_conditions, "control", behind="steps"),
+    Placed(again(short_conditions, "opposites of conditions are longer"), "control", behind="steps again"),
     Placed(number_dialogs, "statements", behind="decide_logic"),
 )
 LAST = (flags_in_bytes,)

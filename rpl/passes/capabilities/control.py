@@ -60,6 +60,3 @@ class Control:
 
     switch_types: frozenset[str] = frozenset()
     """Type classes a Switch may select by (NamedType: enumerations); empty: any type."""
-
-    condition_terms: int = 0
-    """How many comparisons a condition has at most, spelled out without brackets, with Limit.COMPARISONS (0: any)."""

@@ -53,8 +53,5 @@ class Settings:
         (SettingRule.READ_OVERRIDE, SettingRule.ASKED_FRAME, SettingRule.TOOL_IN_FORCE)
     )
 
-    no_tool: str = ""
-    """The target's own tool data without any offset, where moves name such data and no plain poses."""
-
-    no_frame: str = ""
-    """The same for the work object."""
+    bare: tuple[str, str] | None = None
+    """The target's own tool data and work object without any offset, where moves name such data and no plain poses."""

@@ -15,9 +15,7 @@ from rpl.simulation import run_program
 from .executed import EVERYTHING, context, passed, read, same, shown
 
 # A target whose moves name records; its data without an offset is declared by the program itself here.
-RECORDS = replace(
-    EVERYTHING, settings=replace(EVERYTHING.settings, no_tool="no_tool", no_frame="no_frame", modal=False)
-)
+RECORDS = replace(EVERYTHING, settings=replace(EVERYTHING.settings, bare=("no_tool", "no_frame"), modal=False))
 HEAD = """
 PERSISTENT grip: POSE = pose {x: 0.0, y: 0.0, z: 120.0, a: 0.0, b: 0.0, c: 0.0}
 PERSISTENT table: POSE = pose {x: 50.0, y: -20.0, z: 0.0, a: 10.0, b: 0.0, c: 0.0}

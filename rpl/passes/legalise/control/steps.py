@@ -318,18 +318,7 @@ class _Steps(Hoister):
         if further and not self.settled(left, further):
             result = self.temporary(ir.BoolType())
             before, left = (*before, *self.branch(result, left)), ir.Binary("=", result, ir.BoolLiteral(True))
-        return self.shortened((*before, *further), replace(expression, op=op, left=left, right=right))
-
-    def shortened(self, before: ir.Body, condition: ir.Binary) -> Lowered:
-        """A condition that takes no more comparisons than the target's: parts of it are found out before."""
-        most = self.can.control.condition_terms
-        while most and sum(_alternatives(condition)) > most:
-            longer = max(("left", "right"), key=lambda side: sum(_alternatives(getattr(condition, side))))
-            result = self.temporary(ir.BoolType())
-            before = (*before, *self.branch(result, getattr(condition, longer)))
-            held = ir.Binary("=", result, ir.BoolLiteral(True))
-            condition = replace(condition, left=held) if longer == "left" else replace(condition, right=held)
-        return before, condition
+        return (*before, *further), replace(expression, op=op, left=left, right=right)
 
     def branch(self, place: ir.Expression, condition: ir.Expression) -> ir.Body:
         """place := a condition that is in its last form."""
@@ -501,16 +490,6 @@ def _plain_number(value: ir.Expression) -> ir.Expression:
             factor = ir.UNITS[unit]
             return inner if factor == 1.0 else ir.Binary("*", inner, ir.RealLiteral(factor), origin=value.origin)
     return value
-
-
-def _alternatives(condition: ir.Expression) -> list[int]:
-    """How many comparisons each alternative has, where a condition is spelled out without brackets."""
-    match condition:
-        case ir.Binary(op="or" | "cor", left=left, right=right):
-            return [*_alternatives(left), *_alternatives(right)]
-        case ir.Binary(op="and" | "cand", left=left, right=right):
-            return [one + other for one in _alternatives(left) for other in _alternatives(right)]
-    return [1]
 
 
 def _is_logic(value: ir.Expression) -> bool:

@@ -60,7 +60,7 @@ def _names_beside(table: str) -> str:
 
 
 def _named(settings: Settings) -> bool:
-    return bool(settings.no_tool) or MoveSetting.FRAME in settings.of_moves
+    return settings.bare is not None or MoveSetting.FRAME in settings.of_moves
 
 
 def _kinds(program: ir.Program) -> dict[Element, str]:
@@ -175,7 +175,7 @@ class _Tables:
             return ir.System("null_frame")
         if kind is None:
             return ir.Name(self.context.fresh(f"{self.tables[element[0]].name}{number}"))
-        bare, stem = (_STEMS if self.context.capabilities.settings.no_tool else _PLAIN_STEMS)[kind]
+        bare, stem = (_STEMS if self.context.capabilities.settings.bare else _PLAIN_STEMS)[kind]
         text = self.word(element)
         if _IDENTIFIER.fullmatch(text) and text.lower() != f"{bare}{number}":
             return ir.Name(self.context.fresh(text))

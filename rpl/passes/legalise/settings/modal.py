@@ -316,11 +316,11 @@ class _Explicit:
 
     def seen(self, expression: ir.Builtin) -> ir.Builtin:
         """Where the robot is, with the tool and frame that are set, and not with those of the last move."""
-        capabilities, at = self.context.capabilities, PLACES[expression.function][0]
-        if len(expression.arguments) != at or not capabilities.settings.no_tool:
+        bare, at = self.context.capabilities.settings.bare, PLACES[expression.function][0]
+        if len(expression.arguments) != at or bare is None:
             return expression
-        tool = self.modal_data("tool") or ir.Name(capabilities.settings.no_tool)
-        frame = self.modal_data("base") or ir.Name(capabilities.settings.no_frame)
+        tool = self.modal_data("tool") or ir.Name(bare[0])
+        frame = self.modal_data("base") or ir.Name(bare[1])
         return replace(expression, arguments=(*expression.arguments, tool, frame))
 
     # ---- moves

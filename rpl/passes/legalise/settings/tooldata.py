@@ -84,7 +84,7 @@ _TOOL = _Kind(ir.ToolType(), "frame", "tool")
 _FRAME = _Kind(ir.WorkObjectType(), "user_frame", "wobj")
 
 
-@legalising(unless=lambda context: not context.capabilities.settings.no_tool)
+@legalising(unless=lambda context: context.capabilities.settings.bare is None)
 def tool_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves need records as tool and frame."""
     worker = _ToolData(program, context)
@@ -167,11 +167,9 @@ class _ToolData(Rewriter):
             return self.expression(value)
         if isinstance(value, ir.Name) and self.record(value) is kind:
             return value
-        if pose_of(constant(value, self.scope)) == rigid.IDENTITY:
-            capabilities = self.context.capabilities
-            return ir.Name(
-                capabilities.settings.no_tool if kind is _TOOL else capabilities.settings.no_frame, origin=value.origin
-            )
+        bare = self.context.capabilities.settings.bare
+        if bare is not None and pose_of(constant(value, self.scope)) == rigid.IDENTITY:
+            return ir.Name(bare[0] if kind is _TOOL else bare[1], origin=value.origin)
         return self.own(value, kind)
 
     def own(self, value: ir.Expression, kind: _Kind) -> ir.Expression:
