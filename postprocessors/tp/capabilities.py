@@ -149,7 +149,7 @@ CAPABILITIES = Capabilities(
         limits=frozenset(
             (
                 *(Limit.FUNCTIONS_ALONE, Limit.PLAIN_PLACES, Limit.ONE_BRANCH),
-                *(Limit.CONSTANT_CASES, Limit.SWITCH_VARIABLES),
+                Limit.CONSTANT_CASES,
             )
         ),
     ),

@@ -9,6 +9,7 @@ from .dialogs import number_dialogs
 from .flagbytes import flags_in_bytes
 from .framenumbers import frame_numbers
 from .groupsizes import groups_in_sizes
+from .jointways import stand_before_ways
 from .longconditions import short_conditions
 from .shiftedpoints import shifted_points
 from .watches import counted_watches
@@ -17,6 +18,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(counted_watches, "io", behind="timers_to_clocks"),
     Placed(groups_in_sizes, "io", behind="shared_groups_to_bits"),
     Placed(again(groups_in_sizes, "some have their numbers by now"), "io", behind="groups_to_bits"),
+    Placed(stand_before_ways, "settings", behind="reduced_zones"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(shifted_points, "settings", behind="stand_first"),
     Placed(short_conditions, "control", behind="steps"),

@@ -16,6 +16,7 @@ from .limitedwaits import limited_waits
 from .longlogic import long_logic
 from .moveplaces import places_of_moves
 from .resetclocks import stopped_resets
+from .selects import signals_in_registers
 from .shown import values_beside_messages
 from .zeroplaces import zero_places
 
@@ -30,6 +31,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(arguments_in_registers, "control", behind="fit_loops"),
     Placed(long_logic, "control", behind="fit_loops"),
     Placed(joined_texts, "control", behind="steps"),
+    Placed(signals_in_registers, "control", behind="steps"),
     Placed(zero_places, "storage", before="unread_flags"),
     Placed(limited_waits, "storage", before="unread_flags"),
 )

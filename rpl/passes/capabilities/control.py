@@ -43,9 +43,6 @@ class Limit(StrEnum):
     CONSTANT_CASES = auto()
     """Case values are literals."""
 
-    SWITCH_VARIABLES = auto()
-    """A Switch looks at a variable, at no signal or other value."""
-
 
 @dataclass(frozen=True, slots=True)
 class Control:

@@ -39,9 +39,6 @@ class PathRule(StrEnum):
     EVEN_WRIST = auto()
     """The wrist axes of a straight move may go evenly to their end values."""
 
-    FROM_HERE = auto()
-    """A way in joints is worked out from where the robot is, which has to stand for it."""
-
     SEARCHED_DATA = auto()
     """A search may look at a truth value, which another task sets, in place of an input."""
 

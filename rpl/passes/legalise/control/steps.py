@@ -395,17 +395,9 @@ class _Steps(Hoister):
     def switch(self, statement: ir.Switch) -> ir.Body:
         simple = self.by_steps or Limit.PLAIN_PLACES in self.can.control.limits
         before, selector = self.operand(statement.selector) if simple else self.lower(statement.selector)
-        if Limit.SWITCH_VARIABLES in self.can.control.limits and self.is_signal(selector):
-            kept = self.temporary(ir.IntType())
-            before, selector = (*before, ir.Assign(kept, selector)), kept
         cases = tuple(replace(case, body=self.body(case.body)) for case in statement.cases)
         default = None if statement.default is None else self.body(statement.default)
         return self.expanded(statement, before, replace(statement, selector=selector, cases=cases, default=default))
-
-    def is_signal(self, value: ir.Expression) -> bool:
-        symbol = self.editor.scope.value(value.id) if isinstance(value, ir.Name) else None
-        declared = symbol is not None and isinstance(symbol.declaration, ir.SignalDeclaration)
-        return declared or isinstance(value, ir.Signal)
 
     def assigned(self, statement: ir.Assign, target: ir.Expression, value: ir.Expression) -> ir.Body:
         first, place = self.lower(target, True)

@@ -14,7 +14,6 @@ from rpl.passes.legalise.settings.corners.overlapping import left_out_moves
 from rpl.passes.legalise.settings.corners.standing import stand_first
 from rpl.passes.legalise.settings.corners.turningzones import full_zones, reduced_zones
 from rpl.passes.legalise.settings.explicit import explicit_to_modal
-from rpl.passes.legalise.settings.jointways import stand_before_ways
 from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.settings.modal import modal_to_explicit
 from rpl.passes.legalise.settings.movesahead import moves_ahead
@@ -38,7 +37,6 @@ STAGE = Stage(
         left_out_moves,
         corners,
         reduced_zones,
-        stand_before_ways,
         accelerations_of_moves,
         settings_of_one_move,
         corner_leads,

@@ -1,4 +1,4 @@
-"""Relative ways in joints, where the target's program works out the goal from where the robot is."""
+"""Relative ways in joints (IMOV has distances only): the job works out the goal from where the robot is."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.passes.capabilities import PathRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_all
@@ -21,9 +20,9 @@ STANDS = code(
 )
 
 
-@legalising(unless=lambda context: PathRule.FROM_HERE not in context.capabilities.motion.paths)
+@legalising(sees=("move relative to joints",))
 def stand_before_ways(program: ir.Program, context: Context) -> ir.Program:
-    """Ways in joints, in targets whose programs work them out from where the robot is: it has to stand there."""
+    """Where a way in joints begins the robot has to stand."""
 
     def stood(body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
