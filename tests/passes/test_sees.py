@@ -11,7 +11,8 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.passes.legalise import pipeline
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.stages import Kinds, Pass, kinds_of
+from rpl.passes.legalise.kinds import kinds_in, kinds_of
+from rpl.passes.legalise.stages import Pass
 from rpl.project import read_sources
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
@@ -32,7 +33,7 @@ def test_a_pass_that_sees_nothing_does_nothing(language: str, target: str, monke
                 continue
             reported = len(context.diagnostics.items)
             done = one.run(program, context)
-            if one.sees and one.sees.isdisjoint(Kinds().of(program)):
+            if one.sees and one.sees.isdisjoint(kinds_in(program)):
                 skipped.append(one.name)
                 if done != program or len(context.diagnostics.items) != reported:
                     acted.append(one.name)

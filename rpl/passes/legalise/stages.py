@@ -7,15 +7,16 @@ is kept by statement, so that a pass which changes three statements of 200,000 c
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 
 from rpl import ir
 from rpl.errors import InternalError
 from rpl.ir.columns import LooksInsideError
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kept import keeping
+from rpl.passes.legalise.kinds import kinds_in
 from rpl.passes.legalise.moments import Moment, moved_back, note
 from rpl.passes.stretches import settled
 
@@ -51,7 +52,7 @@ class Pass:
         return self.unless is None or not self.unless(context)
 
     def __call__(self, program: ir.Program, context: Context) -> ir.Program:
-        if not self.needed(context) or (self.sees and self.sees.isdisjoint(Kinds().of(program))):
+        if not self.needed(context) or (self.sees and self.sees.isdisjoint(kinds_in(program))):
             return program
         return self.run(program, context)
 
@@ -142,19 +143,19 @@ def run_passes(passes: Iterable[Pass], program: ir.Program, context: Context) ->
     """The program behind the passes, in their order; those that have nothing to do are not called. Where one looks
     inside of a stretch of moves, it goes on behind the last pass that has left the stretches whole: with those moves as
     ordinary ones that are told apart, or with all where these are many."""
-    kinds, moments, parted = Kinds(), list[Moment](), 0
-    held, of = frozenset[str](), None
-    todo, at = tuple(passes), 0
+    with keeping():
+        return _run(tuple(passes), program, context)
+
+
+def _run(todo: tuple[Pass, ...], program: ir.Program, context: Context) -> ir.Program:
+    moments, parted, at = list[Moment](), 0, 0
     while True:
         try:
             for at, one in enumerate(todo[at:], at):  # noqa: B020  # goes on where it was
                 if not one.needed(context):
                     continue
-                if one.sees:
-                    if of is not program:
-                        held, of = kinds.of(program), program
-                    if one.sees.isdisjoint(held):
-                        continue
+                if one.sees and one.sees.isdisjoint(kinds_in(program)):
+                    continue
                 if context.stretches:
                     note(moments, at, program, context)
                 program = one.run(program, context)
@@ -163,72 +164,3 @@ def run_passes(passes: Iterable[Pass], program: ir.Program, context: Context) ->
         except LooksInsideError as asked:
             parted += 1
             at, program = moved_back(moments, context, asked, part=parted <= _MOST_PARTED)
-
-
-def kinds_of(node: object) -> tuple[str, ...]:
-    """What a pass may see of one node: the name of its class, and of a built-in thing which one it is: `Move`;
-    `Builtin`, `function text_part`; `System`, `system tool`; `Binary`, `operator mod`; `Do`, `procedure set_group`;
-    `Signal`, `signal flag`; of moves also `move_kinds`."""
-    name = node.__class__.__name__
-    match node:
-        case ir.Builtin(function=which):
-            return name, f"function {which}"
-        case ir.System(name=which):
-            return name, f"system {which}"
-        case ir.Binary(op=which) | ir.Unary(op=which):
-            return name, f"operator {which}"
-        case ir.Do(procedure=which):
-            return name, f"procedure {which}"
-        case ir.Signal(kind=which):
-            return name, f"signal {which}"
-        case ir.Move():
-            return name, *move_kinds(node)
-    return (name,)
-
-
-def move_kinds(move: ir.Move) -> Iterator[str]:
-    """What is not said of every move: `concurrent move`, `move relative to base`, `velocity move`."""
-    if move.concurrent:
-        yield "concurrent move"
-    if move.relative is not None:
-        yield f"move relative to {move.relative}"
-    if move.motion_class != "classic":
-        yield f"{move.motion_class} move"
-
-
-class Kinds:
-    """The kinds of nodes that a program holds, asked anew after each pass that changed it."""
-
-    def __init__(self) -> None:
-        self.known: dict[int, tuple[object, frozenset[str]]] = {}  # by identity of a statement or declaration
-        self.sets: dict[frozenset[str], frozenset[str]] = {}  # each set once
-
-    def of(self, program: ir.Program) -> frozenset[str]:
-        found: set[str] = set()
-        for module in program.modules:
-            found.add("Module")
-            for declaration in module.declarations:
-                found |= self.part(declaration)
-            for routine in module.routines:
-                found |= self.routine(routine)
-        return frozenset(found)
-
-    def routine(self, routine: ir.Routine) -> set[str]:
-        found = {"Routine"}
-        for parts in (routine.declarations, routine.body, routine.undo, routine.backward, routine.parameters):
-            for part in parts:
-                found |= self.part(part)
-        for handler in routine.handlers:
-            found |= self.part(handler)
-        if routine.returns is not None:
-            found |= self.part(routine.returns)
-        return found
-
-    def part(self, node: object) -> frozenset[str]:
-        known = self.known.get(id(node))
-        if known is not None and known[0] is node:
-            return known[1]
-        kinds = frozenset(kind for each in walk(node) for kind in kinds_of(each))
-        kinds = self.sets.setdefault(kinds, kinds)
-        self.known[id(node)] = node, kinds
-        return kinds

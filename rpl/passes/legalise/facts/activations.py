@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.legalise.facts.effects import blocks, children, everything
+from rpl.passes.legalise.kinds import kinds_within
 from rpl.passes.scope import ProgramScope, Scope
 
 
@@ -95,7 +96,7 @@ class Activations:
 def called(statement: ir.Statement, scope: Scope) -> list[ir.Routine]:
     """The program's routines that the statement itself calls (the blocks in it not looked at)."""
     names = [statement.name] if isinstance(statement, ir.CallRoutine) and statement.dynamic is None else []
-    for child in children(statement):
+    for child in children(statement) if "Call" in kinds_within(statement) else ():
         names += [one.name for one in everything(child) if isinstance(one, ir.Call)]
     found = [scope.routine(name) for name in names]
     return [routine for routine in found if routine is not None]

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import chain
 
 from rpl import ir
 from rpl.ir.walk import bodies, rewrite, walk
@@ -19,6 +20,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, Value, constant
 from rpl.passes.legalise.facts.entries import calls_of, moving_entries, reached, routines_beside
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, usage_of
+from rpl.passes.legalise.kinds import gathering, kinds_in_routine
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target, component, literal
@@ -28,6 +30,7 @@ Place = tuple[int, str, tuple[int, ...], str]
 Settled = dict[tuple[str, tuple[int, ...]], Value]
 
 _MODAL = ("tool", "base")
+_MOVING = frozenset(("Move", "MoveExternal", "Spline"))
 _MOST_STEPS = 2000  # statements carried out; a longer beginning is no preparation
 _MOST_ELEMENTS = 100  # of an array whose first values are looked at
 _PLAIN = (ir.Nothing, ir.Message, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.LookAhead, ir.Pulse, ir.Clock)
@@ -57,16 +60,29 @@ def settled_at_start(program: ir.Program, unchanged: Unchanged, places: bool = F
 
 def _wanted(program: ir.Program, places: bool) -> set[str]:
     """Variables that tool and frame are taken from, and `places`."""
-    found: set[str] = set()
-    for node in walk(*program.modules):
-        values: tuple[ir.Expression | None, ...] = ()
-        match node:
-            case ir.Assign(target=ir.System(name=name), value=value) if name in _MODAL:
-                values = (value,)
-            case ir.Move(tool=tool, frame=frame, target=target):
-                values = (tool, frame, target if places else None)
-        found |= {one.id.lower() for one in walk(*(v for v in values if v is not None)) if isinstance(one, ir.Name)}
-    return found
+    asked = {"frame", "place"} if places else {"frame"}
+    return {
+        name
+        for module in program.modules
+        for routine in module.routines
+        for statement in chain(*bodies(routine))
+        for what, name in _taken_from(statement)
+        if what in asked
+    }
+
+
+@gathering("Move", "system tool", "system base")
+def _taken_from(statement: ir.Statement) -> Iterator[tuple[str, str]]:
+    """Variables that a statement takes a tool or frame (`frame`) or the goal of a move (`place`) from."""
+    match statement:
+        case ir.Assign(target=ir.System(name=name), value=value) if name in _MODAL:
+            parts: tuple[tuple[str, ir.Expression | None], ...] = (("frame", value),)
+        case ir.Move(tool=tool, frame=frame, target=target):
+            parts = ("frame", tool), ("frame", frame), ("place", target)
+        case _:
+            return
+    for what, part in parts:
+        yield from ((what, one.id.lower()) for one in walk(part) if isinstance(one, ir.Name))
 
 
 def _moving_roots(program: ir.Program) -> set[str]:
@@ -75,7 +91,7 @@ def _moving_roots(program: ir.Program) -> set[str]:
         routine.name.lower()
         for module in program.modules
         for routine in module.routines
-        if any(isinstance(node, ir.Move | ir.MoveExternal | ir.Spline) for node in walk(routine))
+        if not _MOVING.isdisjoint(kinds_in_routine(routine))
     }
     calls = calls_of(program)
     return {root for root in moving_entries(program) if not reached(root, calls).isdisjoint(moving)}

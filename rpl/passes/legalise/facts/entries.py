@@ -3,20 +3,31 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import replace
+from itertools import chain
 
 from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.legalise.facts.heldtexts import named_by_texts
-from rpl.passes.legalise.facts.usage import each_expression, each_statement
+from rpl.passes.legalise.facts.usage import each_expression
+from rpl.passes.legalise.kept import of_program
+from rpl.passes.legalise.kinds import gathering, kinds_within, walk_for
 
 INITIALISE = "rpl_initialise"  # what a routine is called that gives data their first values
+_NONE: Set[str] = frozenset()
+_TASKS = frozenset(("TaskControl",))
 _WORD = re.compile(r"\w+(?:\.\w+)*")
 
 
 def never_called(program: ir.Program) -> set[str]:
     """Procedures without parameters that no other routine calls, nor a text that it names: any of them may be where
     a program starts."""
+    return set(_never_called(program))
+
+
+@of_program
+def _never_called(program: ir.Program) -> frozenset[str]:
     calls = calls_of(program)
     found = {
         routine.name.lower()
@@ -25,43 +36,48 @@ def never_called(program: ir.Program) -> set[str]:
         if routine.kind == "procedure" and not routine.parameters and routine.scope != "module"
     }
     found = {name for name in found if not any(name in named for caller, named in calls.items() if caller != name)}
-    return found - named_by_texts(program) or found
+    return frozenset(found - named_by_texts(program) or found)
 
 
-def calls_of(program: ir.Program) -> dict[str, set[str]]:
+@of_program
+def calls_of(program: ir.Program) -> Mapping[str, Set[str]]:
     """For each routine (folded) those that it calls, connects to interrupts or gives to triggers, also in a statement
     that was refused."""
     found: dict[str, set[str]] = {}
-    called: set[str] = set()
     names = {routine.name.lower() for module in program.modules for routine in module.routines}
-
-    def look(statement: ir.Statement) -> None:
-        match statement:
-            case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name) | ir.OnError(routine=str() as name):
-                called.add(name.lower())
-            case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
-                called.add(name.lower())
-            case ir.Opaque(text=text):
-                called.update(names.intersection(_WORD.findall(text.lower())))
-        each_expression(statement, call)
-
-    def call(expression: ir.Expression) -> None:
-        if isinstance(expression, ir.Call):
-            called.add(expression.name.lower())
-
     for module in program.modules:
         for routine in module.routines:
             called = found.setdefault(routine.name.lower(), set())
-            for body in bodies(routine):
-                each_statement(body, look)
+            for statement in chain(*bodies(routine)):
+                called |= _called(statement)
+                called |= _words(statement) & names
     return found
 
 
-def reached(start: str, calls: dict[str, set[str]]) -> set[str]:
+@gathering("Call", "CallRoutine", "ConnectInterrupt", "OnError", "DeclareInterrupt", "Trigger")
+def _called(statement: ir.Statement) -> Iterator[str]:
+    match statement:
+        case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name) | ir.OnError(routine=str() as name):
+            yield name.lower()
+        case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
+            yield name.lower()
+    if "Call" in kinds_within(statement):
+        found: list[str] = []
+        each_expression(statement, lambda one: found.append(one.name.lower()) if isinstance(one, ir.Call) else None)
+        yield from found
+
+
+@gathering("Opaque")
+def _words(statement: ir.Statement) -> list[str]:
+    """The words of a statement that was refused."""
+    return _WORD.findall(statement.text.lower()) if isinstance(statement, ir.Opaque) else []
+
+
+def reached(start: str, calls: Mapping[str, Set[str]]) -> set[str]:
     """The routine and all that its calls lead to, folded."""
     found, open_names = {start}, [start]
     while open_names:
-        new = calls.get(open_names.pop(), set()) - found
+        new = calls.get(open_names.pop(), _NONE) - found
         found |= new
         open_names.extend(new)
     return found
@@ -69,17 +85,8 @@ def reached(start: str, calls: dict[str, set[str]]) -> set[str]:
 
 def started_tasks(program: ir.Program) -> set[str]:
     """Routines that the program itself starts as tasks beside it, folded."""
-    found: set[str] = set()
-
-    def look(statement: ir.Statement) -> None:
-        if isinstance(statement, ir.TaskControl) and statement.op == "start":
-            found.add(statement.task.lower())
-
-    for module in program.modules:
-        for routine in module.routines:
-            for body in bodies(routine):
-                each_statement(body, look)
-    return found
+    nodes = walk_for(_TASKS, *program.modules)
+    return {node.task.lower() for node in nodes if isinstance(node, ir.TaskControl) and node.op == "start"}
 
 
 def routines_beside(program: ir.Program) -> set[str]:

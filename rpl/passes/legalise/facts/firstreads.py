@@ -150,7 +150,7 @@ def _guarded(program: ir.Program, names: Names) -> dict[str, Names]:
     """Flag -> data that is set in front of each place which raises the flag: where the flag is up, the run has set it.
     Only of flags that begin down and that nothing else than a literal sets."""
     begin = {one.name.lower() for one in _data(program) if one.initial == _DOWN} & names
-    begin -= {name for _, _, name in usage_of(program).passed}
+    begin -= usage_of(program).otherwise
     found: dict[str, Names] = {}
     raised, counted = Counter[str](), Counter[str]()
     for routine in (routine for module in program.modules for routine in module.routines):

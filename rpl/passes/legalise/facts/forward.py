@@ -23,12 +23,32 @@ from rpl.passes.legalise.facts.effects import children
 from rpl.passes.legalise.facts.entries import never_called
 from rpl.passes.legalise.facts.reach import armed_statements, with_calls
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.kinds import kinds_in, kinds_within, walk_for
 from rpl.passes.scope import ProgramScope, Scope
 
 S = TypeVar("S")
 _MOST_CHANGES = 200  # of what is known of one routine, one loop or one label, before nothing counts as known
 _SURE = (ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral, ir.Name, ir.System, ir.Field,
          ir.Quantity, ir.Unary, ir.Aggregate)  # fmt: skip
+
+# Kinds of nodes that decide which way a program goes.
+_CALLS = frozenset(("Call", "CallRoutine"))
+_WAYS = _CALLS | {
+    "Loop",
+    "ExitLoop",
+    "NextPass",
+    "Goto",
+    "Label",
+    "Return",
+    "Retry",
+    "TryNext",
+    "Raise",
+    "ResumeLevel",
+    "Halt",
+}
+_DECLARING = frozenset(("DeclareInterrupt",))
+_TASKS = frozenset(("TaskControl",))
+_REACTING = frozenset(("DeclareInterrupt", "Trigger", "ConnectInterrupt", "OnError"))
 
 
 @dataclass(slots=True)
@@ -76,7 +96,10 @@ class _Run(Generic[S]):
 
 class Forward(ABC, Generic[S]):
     """`start`: where a run begins. `unknown`: true at any time. States are never changed in place; None: nothing leads
-    there."""
+    there. `heeds`: kinds of nodes (rpl.passes.legalise.kinds) outside of which `transfer` changes and `note` takes
+    nothing; None: it looks at all."""
+
+    heeds: frozenset[str] | None = None
 
     def __init__(self, program: ir.Program, start: S, unknown: S) -> None:
         self.program, self.start, self.unknown = program, start, unknown
@@ -87,10 +110,11 @@ class Forward(ABC, Generic[S]):
             made: _Summary[S] = _Summary(module, routine, self.scopes.routine(module, routine))
             self.summaries[id(routine)] = made
             self.by_name.setdefault(routine.name.lower(), []).append(made)
-        nodes = [*walk(*program.modules)]
-        self.abandoned = _abandoned(program) if any(isinstance(one, ir.ResumeLevel) for one in nodes) else None
-        self.skipping = any(isinstance(one, ir.OnError) for one in nodes)  # failed statements may be passed over
-        self.failures = self.abandoned is not None or any(isinstance(one, ir.Handler) for one in nodes)
+        kinds = kinds_in(program)
+        self.abandoned = _abandoned(program) if "ResumeLevel" in kinds else None
+        self.skipping = "OnError" in kinds  # failed statements may be passed over
+        self.failures = self.abandoned is not None or "Handler" in kinds
+        self.idle: dict[frozenset[str], bool] = {}  # statements of these kinds: does nothing look at them?
         self.waiting: dict[int, None] = {}
         self.called_in: dict[int, tuple[ir.CallRoutine | ir.Call, ...]] = {}
         self.noting = self.settled = False
@@ -187,8 +211,10 @@ class Forward(ABC, Generic[S]):
     def routine(self, one: _Summary[S], entry: S) -> tuple[S | None, S | None]:
         """What it leaves behind, and what holds at some time in it."""
         routine = one.routine
-        declares = any(isinstance(node, ir.DeclareInterrupt) for node in walk(*routine.body))
-        run: _Run[S] = _Run(one, declares and self.abandoned is not None, entry if self.failures else None)
+        declares = self.abandoned is not None and any(
+            isinstance(node, ir.DeclareInterrupt) for node in walk_for(_DECLARING, *routine.body)
+        )
+        run: _Run[S] = _Run(one, declares, entry if self.failures else None)
         self.runs.append(run)
         noting, self.noting = self.noting, False
         for visit in range(_MOST_CHANGES + 1):
@@ -220,19 +246,28 @@ class Forward(ABC, Generic[S]):
             if isinstance(statement, ir.Label):
                 state = self.joined(state, self.run.jumps.get(statement.name.lower()))
             if state is not None:
-                state = self.statement(statement, state)
+                state = state if self.is_idle(statement) else self.statement(statement, state)
+                if self.failures and state is not None and state is not self.run.inside:
+                    self.run.inside = self.joined(self.run.inside, state)
             elif self.run.jumps:
                 state = self.inner(statement, None)  # a jump may lead into it
         return state
+
+    def is_idle(self, statement: ir.Statement) -> bool:
+        """Does it, with all in it, leave what holds as it is, and does nobody ask what holds there?"""
+        if self.heeds is None or self.run.handlers:
+            return False
+        kinds = kinds_within(statement)
+        idle = self.idle.get(kinds)
+        if idle is None:
+            self.idle[kinds] = idle = kinds.isdisjoint(self.heeds) and kinds.isdisjoint(_WAYS)
+        return idle
 
     def statement(self, statement: ir.Statement, state: S) -> S | None:
         skipped: S | None = None
         if self.run.handlers:
             state, skipped = self.failing(statement, state)
-        after = self.joined(self.inner(statement, state), skipped)
-        if self.failures and after is not None and after is not self.run.inside:
-            self.run.inside = self.joined(self.run.inside, after)
-        return after
+        return self.joined(self.inner(statement, state), skipped)
 
     def failing(self, statement: ir.Statement, state: S) -> tuple[S, S | None]:
         """What holds in front of a statement that handlers may repeat, and behind it where they pass it over."""
@@ -372,6 +407,8 @@ class Forward(ABC, Generic[S]):
 
     def calls_in(self, node: ir.Statement | ir.Expression) -> tuple[ir.CallRoutine | ir.Call, ...]:
         """The calls of a statement itself, or of an expression, in their order."""
+        if not is_expression(node) and _CALLS.isdisjoint(kinds_within(node)):
+            return ()
         found = self.called_in.get(id(node))
         if found is None:
             own = (node,) if isinstance(node, ir.CallRoutine | ir.Call) else ()
@@ -484,21 +521,20 @@ def started(program: ir.Program) -> list[str]:
 
 def beside(program: ir.Program) -> list[str]:
     """Routines that something else than a call may run."""
-    tasks = {node.task for node in walk(*program.modules) if isinstance(node, ir.TaskControl)}
+    nodes = walk_for(_TASKS, *program.modules)
+    tasks = {node.task for node in nodes if isinstance(node, ir.TaskControl)}
     return sorted({name.lower() for name in (*tasks, *reactions(program))})
 
 
 def reactions(program: ir.Program) -> Iterator[str]:
-    for node in walk(*program.modules):
+    for node in walk_for(_REACTING, *program.modules):
         match node:
             case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.Trigger(action=ir.CallRoutine(name=name)):
                 yield name
-            case (
-                ir.ConnectInterrupt(routine=name)
-                | ir.OnError(routine=str() as name)
-                | ir.Routine(name=name, kind="trap")
-            ):
+            case ir.ConnectInterrupt(routine=name) | ir.OnError(routine=str() as name):
                 yield name
+    for module in program.modules:
+        yield from (one.name for one in module.routines if one.kind == "trap")
 
 
 __all__ = ["Forward", "beside", "reactions", "started"]

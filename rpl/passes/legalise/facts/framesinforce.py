@@ -10,11 +10,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from rpl import ir
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies
 from rpl.passes import rigid
 from rpl.passes.fold import constant, element_key
 from rpl.passes.legalise.facts.inforce import InForce, variable
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
+from rpl.passes.legalise.kinds import kinds_in, kinds_within
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.rewrite import rewrite_parts, visit_parts
 from rpl.passes.scope import Scope
@@ -22,6 +23,9 @@ from rpl.passes.values import Record, Value, pose_of
 
 _MODAL = ("tool", "base", "robot_root")
 _ASKING = frozenset(("target_to_joints", "target_to_joints_near", "is_reachable", "joints_to_target"))
+_ASKED = frozenset(f"function {name}" for name in _ASKING)
+_HEEDED = _ASKED | {"Move"} | {f"system {name}" for name in _MODAL}
+_CHANGING = frozenset(("Assign", "For", "Do", "Dialog", "WaitUntil", "Clock", "DefineTrigger"))  # variables
 State = Mapping[str, Value]
 
 
@@ -52,7 +56,8 @@ class FramesInForce(InForce[Value]):
         self.frames: dict[int, Frames] = {}
         self.known: dict[tuple[int, str], rigid.Pose | None] = {}
         self.relevant = _relevant(program)
-        self.asking = any(isinstance(one, ir.Builtin) and one.function in _ASKING for one in walk(*program.modules))
+        self.asking = not _ASKED.isdisjoint(kinds_in(program))
+        self.heeds = _HEEDED | _CHANGING if self.relevant else _HEEDED
         self.follow_program()
 
     # ---- what the analysis asks
@@ -62,7 +67,7 @@ class FramesInForce(InForce[Value]):
         return known if isinstance(known, bool) else None
 
     def note(self, statement: ir.Statement, before: State) -> None:
-        if self.asking:
+        if self.asking and not _ASKED.isdisjoint(kinds_within(statement)):
             self.questions(statement, before)
         if isinstance(statement, ir.Move):
             self.tell(statement, self.of_move(statement, before, self.scope))

@@ -13,8 +13,12 @@ from rpl import ir
 from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.usage import assigned_in
+from rpl.passes.legalise.kept import of_program
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.rewrite import rewrite_parts
+
+_BY_TEXT = frozenset(("call by text",))
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,9 +82,14 @@ def named_by(call: ir.CallRoutine, held: HeldTexts, names: Set[str]) -> set[str]
 
 def named_by_texts(program: ir.Program) -> set[str]:
     """Procedures (folded) that calls by a text are known to mean, as far as anything is known of the text."""
+    return set(_named_by_texts(program))
+
+
+@of_program
+def _named_by_texts(program: ir.Program) -> frozenset[str]:
     calls = _calls_by_text(_told_texts(program))
     held = HeldTexts.of(program) if calls else HeldTexts({}, frozenset())
-    return {name for call in calls for name in named_by(call, held, _procedures(program))}
+    return frozenset(name for call in calls for name in named_by(call, held, _procedures(program)))
 
 
 def known_calls(program: ir.Program) -> ir.Program:
@@ -106,7 +115,8 @@ def _procedures(program: ir.Program) -> set[str]:
 
 
 def _calls_by_text(program: ir.Program) -> list[ir.CallRoutine]:
-    return [one for one in walk(*program.modules) if isinstance(one, ir.CallRoutine) and one.dynamic is not None]
+    nodes = walk_for(_BY_TEXT, *program.modules)
+    return [one for one in nodes if isinstance(one, ir.CallRoutine) and one.dynamic is not None]
 
 
 def _told_texts(program: ir.Program) -> ir.Program:

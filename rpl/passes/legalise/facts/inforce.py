@@ -13,15 +13,16 @@ from collections.abc import Mapping, Set
 from typing import TypeVar
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.entries import routines_beside
 from rpl.passes.legalise.facts.forward import Forward, beside, reactions, started
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, done_below
+from rpl.passes.legalise.kinds import gathering, walk_for
 from rpl.passes.scope import Scope
 
 V = TypeVar("V")
 Changed = Mapping[str, Set[str]]  # routine -> what it changes, itself or by what it calls
 _NOTHING: Set[str] = frozenset()
+_ACTIONS = frozenset(("DeclareInterrupt", "Trigger"))
 
 
 class InForce(Forward[Mapping[str, V]]):
@@ -120,16 +121,17 @@ def changed_at_any_time(program: ir.Program, variables: Changed, settings: Chang
     apart |= {task.entry.lower() for task in program.tasks[1:]} | {*beside(program)} | routines_beside(program)
     found = set[str]().union(*(settings.get(name, _NOTHING) for name in reacting))
     found = found.union(*(variables.get(name, _NOTHING) for name in reacting | apart))
-    for node in walk(*program.modules):
+    for node in walk_for(_ACTIONS, *program.modules):
         match node:
             case ir.DeclareInterrupt(action=ir.Assign(target=target)) | ir.Trigger(action=ir.Assign(target=target)):
                 found.add(changed_name(target))
     return frozenset(found)
 
 
-def _settings_of(node: object) -> tuple[str, ...]:
-    """Settings that a node changes."""
-    match node:
+@gathering("System")
+def _settings_of(statement: ir.Statement) -> tuple[str, ...]:
+    """Settings that a statement changes."""
+    match statement:
         case ir.Assign(target=ir.System() | ir.Field(base=ir.System()) as target):
             return (changed_name(target),)
     return ()

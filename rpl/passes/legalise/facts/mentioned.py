@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.facts.usage import each_expression
+from rpl.passes.legalise.kinds import gathering
 from rpl.passes.rewrite import rewrite_parts
 
 _BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
@@ -32,6 +34,35 @@ def _named_types(type: ir.Type | None) -> set[str]:
     return {type.name.lower()} if isinstance(type, ir.NamedType) else set()
 
 
+def _named(one: ir.Expression) -> tuple[str, ...]:
+    match one:
+        case ir.Call(name=name):
+            return name.lower(), called_as(name)
+        case ir.Name(id=name) | ir.EnumLiteral(member=name):
+            return (name.lower(),)
+        case ir.Aggregate(type_name=word) if word and word not in _BUILT_IN:
+            return (word.lower(),)
+    return ()
+
+
+@gathering(
+    *("Call", "Name", "EnumLiteral", "Aggregate"),
+    *("For", "CallRoutine", "ConnectInterrupt", "TaskControl", "OnError"),
+)
+def _said(statement: ir.Statement) -> set[str]:
+    """The names that a statement mentions."""
+    found: set[str] = set()
+    match statement:
+        case ir.For(counter=name):
+            found.add(name.lower())
+        case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+            found.update((name.lower(), called_as(name)))
+        case ir.TaskControl(task=str() as name) | ir.OnError(routine=str() as name):
+            found.update((name.lower(), called_as(name)))
+    each_expression(statement, lambda one: found.update(_named(one)))
+    return found
+
+
 def mentioned(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
     """Every name that the node mentions, folded: of values, routines, types and members."""
     found: set[str] = set()
@@ -40,25 +71,11 @@ def mentioned(node: ir.Program | ir.Declaration | ir.Routine) -> set[str]:
         found.update(_named_types(type))
 
     def expression(one: ir.Expression) -> ir.Expression:
-        match one:
-            case ir.Call(name=name):
-                found.update((name.lower(), called_as(name)))
-            case ir.Name(id=name) | ir.EnumLiteral(member=name):
-                found.add(name.lower())
-            case ir.Aggregate(type_name=word) if word and word not in _BUILT_IN:
-                found.add(word.lower())
+        found.update(_named(one))
         return rewrite_parts(one, expression)
 
     def body(statements: ir.Body) -> ir.Body:
-        for one in statements:
-            match one:
-                case ir.For(counter=name):
-                    found.add(name.lower())
-                case ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
-                    found.update((name.lower(), called_as(name)))
-                case ir.TaskControl(task=str() as name) | ir.OnError(routine=str() as name):
-                    found.update((name.lower(), called_as(name)))
-            rewrite_parts(one, expression, body)
+        found.update(*map(_said, statements))
         return statements
 
     def declaration(one: ir.Declaration) -> None:

@@ -15,6 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.heldtexts import known_calls
 from rpl.passes.legalise.facts.inforce import InForce
 from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
+from rpl.passes.legalise.kinds import kinds_within
 from rpl.passes.scope import Scope
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
@@ -61,8 +62,13 @@ IN_FRAME = {
 }
 
 
+_ASKING = frozenset(("system actual_pose", *(f"function {name}" for name in IN_FRAME)))
+
+
 def in_frame(statement: ir.Statement) -> bool:
     """Does the statement read a pose that depends on the modal frame?"""
+    if _ASKING.isdisjoint(kinds_within(statement)):
+        return False
     found = False
 
     def look(one: ir.Expression) -> None:
@@ -79,7 +85,7 @@ def in_frame(statement: ir.Statement) -> bool:
 
 def _plainly_reads(statement: ir.Statement) -> bool:
     """Is it an assignment that reads or converts a place, and calls nothing that may change a setting?"""
-    if not isinstance(statement, ir.Assign):
+    if not isinstance(statement, ir.Assign) or _ASKING.isdisjoint(kinds_within(statement)):
         return False
     inside = list(walk(statement.value))
     reads = any(isinstance(one, ir.Builtin) and one.function in IN_FRAME for one in inside)
@@ -141,6 +147,8 @@ def _default(name: str, defaults: dict[str, float | bool | str]) -> ir.Expressio
 
 class _Settings(InForce[ir.Expression]):
     """States have the followed settings with a `$` in front, where they are known."""
+
+    heeds = _ASKING | {"Move"} | {f"system {name}" for name in _FOLLOWED}
 
     def __init__(self, program: ir.Program, found: SettingsInForce) -> None:
         start = {f"${name}": value for name, value in found.start.items() if value is not None}

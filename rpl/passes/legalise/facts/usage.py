@@ -1,17 +1,22 @@
-"""Who changes what: names assigned anywhere, system variables a routine sets (with what it calls), interrupts.
+"""Who changes what: names assigned anywhere, and what a routine does with what it calls.
 
 Conservative and by name: a name that is assigned in one scope counts as assigned in all.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import partial
+from itertools import chain
+from typing import NamedTuple
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
+from rpl.passes.legalise.kinds import gathering, kinds_within, walk_for
 from rpl.passes.rewrite import visit_parts
+
+_BY_TEXT = ""  # among names of called routines: any procedure
+_CALLS = frozenset(("Call", "CallRoutine"))
 
 
 def each_statement(body: ir.Body, visit: Callable[[ir.Statement], None]) -> None:
@@ -50,6 +55,16 @@ def base_name(lvalue: ir.Expression) -> str | None:
     return lvalue.id.lower() if isinstance(lvalue, ir.Name) else None
 
 
+class _Change(NamedTuple):
+    """A variable (folded) that a statement may change. how: `assigned`, `otherwise`, `passed` to the routine `to` as
+    its argument `at` (None: by its name)."""
+
+    name: str
+    how: str
+    to: str = ""
+    at: int | None = None
+
+
 @dataclass(slots=True)
 class Usage:
     """Facts about a whole program."""
@@ -58,40 +73,33 @@ class Usage:
     """Names assigned, used as an output, or passed where they could be changed."""
     otherwise: set[str] = field(default_factory=set)
     """Those of them that something else than an assignment changes."""
-    sets: dict[str, set[str]] = field(default_factory=dict)
-    """Routine (folded) -> system variables it may set, directly or through calls."""
-    interrupting: set[str] = field(default_factory=set)
-    """System variables that an interrupt's routine may set."""
-    passed: list[tuple[str, int | None, str]] = field(default_factory=list)
+    passed: set[tuple[str, int | None, str]] = field(default_factory=set)
     """Variables that are arguments: the routine (folded), the argument's position (None: named), the variable."""
+
+    def take(self, changes: Iterable[_Change]) -> None:
+        for one in changes:
+            if one.how == "passed":
+                self.passed.add((one.to, one.at, one.name))
+            else:
+                (self.assigned if one.how == "assigned" else self.otherwise).add(one.name)
 
 
 def usage_of(program: ir.Program) -> Usage:
     usage = Usage()
-    calls: dict[str, set[str]] = {}
-    handlers: set[str] = set()
     inner: list[tuple[ir.Routine, Usage]] = []
     for module in program.modules:
         for declaration in module.declarations:
             if isinstance(declaration, ir.Initialise):
-                _assigned(declaration.assign, usage)
+                usage.take(_changes(declaration.assign))
         for routine in module.routines:
-            key = routine.name.lower()
-            usage.sets.setdefault(key, set())
-            calls.setdefault(key, set())
-            own = Usage(sets=usage.sets)
-            inner.append((routine, own))
-            visit = partial(_statement, key=key, usage=own, calls=calls, handlers=handlers)
-            for body in bodies(routine):
-                each_statement(body, visit)
+            inner.append((routine, Usage()))
+            for statement in chain(*bodies(routine)):
+                inner[-1][1].take(_changes(statement))
     unchanging = _unchanging(inner)
     for own in (usage, *(one for _, one in inner)):
         usage.otherwise |= own.otherwise | _changed(own, unchanging)
         usage.assigned |= own.assigned
     usage.assigned |= usage.otherwise
-    _close(usage.sets, calls)
-    for name in handlers:
-        usage.interrupting |= usage.sets.get(name, set())
     return usage
 
 
@@ -122,112 +130,107 @@ def _changed(own: Usage, unchanging: dict[str, frozenset[int]]) -> set[str]:
 
 def assigned_in(*found_in: ir.Body) -> set[str]:
     """Names that the statements assign or pass where they could be changed (not what called routines assign)."""
-    usage = Usage()
-
-    def look(statement: ir.Statement) -> None:
-        _assigned(statement, usage)
-        each_expression(statement, call)
-
-    def call(expression: ir.Expression) -> None:
-        if isinstance(expression, ir.Call):
-            _arguments(expression.name, expression.arguments, usage)
-
-    for body in found_in:
-        each_statement(body, look)
-    return usage.assigned | usage.otherwise | _changed(usage, {})
+    return {one.name for body in found_in for statement in body for one in _changes(statement)}
 
 
 def assigned_below(program: ir.Program) -> dict[str, set[str]]:
     """Routine (folded) -> names that it, or what it calls, assigns or passes where they could be changed."""
+    return done_below(program, lambda statement: (one.name for one in _changes(statement)))
+
+
+def done_below(program: ir.Program, does: Callable[[ir.Statement], Iterable[str]]) -> dict[str, set[str]]:
+    """For each routine (folded name) what its statements do, or those of what it calls. does: what one does with all
+    that is in it."""
     found: dict[str, set[str]] = {}
+    for routine in _routines(program):
+        done = found.setdefault(routine.name.lower(), set())
+        done.update(*(does(statement) for statement in chain(*bodies(routine))))
+    return _below(program, found)
+
+
+def _below(program: ir.Program, found: dict[str, set[str]]) -> dict[str, set[str]]:
+    """What routines do with what they call, by what they do themselves."""
     calls: dict[str, set[str]] = {}
     procedures = _procedures(program)
-    for module in program.modules:
-        for routine in module.routines:
-            key = routine.name.lower()
-            for body in bodies(routine):
-                found.setdefault(key, set()).update(assigned_in(body))
-            calls.setdefault(key, set()).update(*(_may_call(node, procedures) for node in walk(routine)))
+    for routine in _routines(program):
+        called = calls.setdefault(routine.name.lower(), set())
+        called.update(*map(_called, chain(*bodies(routine))))
+        if _BY_TEXT in called:
+            called |= procedures
     _close(found, calls)
     return found
 
 
+def _routines(program: ir.Program) -> Iterator[ir.Routine]:
+    return (routine for module in program.modules for routine in module.routines)
+
+
 def _procedures(program: ir.Program) -> frozenset[str]:
     """What a call by a text may mean, folded."""
-    routines = (routine for module in program.modules for routine in module.routines)
-    return frozenset(routine.name.lower() for routine in routines if routine.kind == "procedure")
+    return frozenset(routine.name.lower() for routine in _routines(program) if routine.kind == "procedure")
 
 
-def _may_call(node: object, procedures: frozenset[str]) -> Iterable[str]:
-    """The routines (folded) that a node calls or may call."""
-    match node:
-        case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
-            return procedures
-        case ir.CallRoutine(name=name) | ir.Call(name=name):
-            return (name.lower(),)
-    return ()
-
-
-def _statement(statement: ir.Statement, key: str, usage: Usage, calls: dict[str, set[str]], handlers: set[str]) -> None:
-    _assigned(statement, usage)
+@gathering("Call", "CallRoutine")
+def _called(statement: ir.Statement) -> Iterable[str]:
+    """The routines (folded) that a statement calls; _BY_TEXT: by a text."""
     match statement:
-        case ir.Assign(target=ir.System(name=name)):
-            usage.sets[key].add(name)
+        case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+            yield _BY_TEXT
         case ir.CallRoutine(name=name):
-            calls[key].add(name.lower())
-        case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.ConnectInterrupt(routine=name):
-            handlers.add(name.lower())
-            calls[key].add(name.lower())
-        case ir.Trigger(action=ir.CallRoutine(name=name)):
-            handlers.add(name.lower())
-
-    def call(expression: ir.Expression) -> None:
-        if isinstance(expression, ir.Call):
-            calls[key].add(expression.name.lower())
-            _arguments(expression.name, expression.arguments, usage)
-
-    each_expression(statement, call)
+            yield name.lower()
+    yield from (call.name.lower() for call in _functions(statement))
 
 
-def _assigned(statement: ir.Statement, usage: Usage) -> None:
+@gathering(
+    *("Assign", "For", "Call", "CallRoutine", "Do", "Dialog", "WaitUntil", "Clock", "DefineTrigger", "Search"),
+)
+def _changes(statement: ir.Statement) -> Iterable[_Change]:
     """Lvalues of any statement: assignment targets, outputs of built-ins, arguments that may be passed by reference."""
     match statement:
         case ir.Assign(target=target):
-            _name(target, usage.assigned)
+            yield from _named("assigned", target)
         case ir.For(counter=counter):
-            usage.otherwise.add(counter.lower())
+            yield _Change(counter.lower(), "otherwise")
         case ir.CallRoutine(name=name, arguments=arguments):
-            _arguments(name, arguments, usage)
+            yield from _passed(name, arguments)
         case ir.Do(arguments=values):
-            for value in values:
-                _name(value, usage.otherwise)
+            yield from _named("otherwise", *values)
         case ir.Dialog(answer=answer, timed_out=flag):
-            _name(answer, usage.otherwise)
-            _name(flag, usage.otherwise)
+            yield from _named("otherwise", answer, flag)
         case ir.WaitUntil(timed_out=flag):
-            _name(flag, usage.otherwise)
+            yield from _named("otherwise", flag)
         case ir.Clock(clock=clock):
-            _name(clock, usage.otherwise)
+            yield from _named("otherwise", clock)
         case ir.DefineTrigger(target=target):
-            _name(target, usage.otherwise)
+            yield from _named("otherwise", target)
         case ir.Move(search=ir.Search(found=found, hit=hit)):
-            _name(found, usage.otherwise)
-            _name(hit, usage.otherwise)
+            yield from _named("otherwise", found, hit)
+    for call in _functions(statement):
+        yield from _passed(call.name, call.arguments)
 
 
-def _arguments(name: str, arguments: tuple[ir.Argument, ...], usage: Usage) -> None:
+def _functions(statement: ir.Statement) -> list[ir.Call]:
+    """The calls in the expressions of a statement itself."""
+    found: list[ir.Call] = []
+    if "Call" in kinds_within(statement):
+        each_expression(statement, lambda one: found.append(one) if isinstance(one, ir.Call) else None)
+    return found
+
+
+def _passed(name: str, arguments: tuple[ir.Argument, ...]) -> Iterable[_Change]:
     named = any(argument.name for argument in arguments)
     for at, argument in enumerate(arguments):
         if isinstance(argument.value, ir.Name | ir.Index | ir.Field):
             variable = base_name(argument.value)
             if variable is not None:
-                usage.passed.append((name.lower(), None if named else at, variable))
+                yield _Change(variable, "passed", name.lower(), None if named else at)
 
 
-def _name(value: ir.Expression | None, names: set[str]) -> None:
-    name = base_name(value) if value is not None else None
-    if name is not None:
-        names.add(name)
+def _named(how: str, *values: ir.Expression | None) -> Iterable[_Change]:
+    for value in values:
+        name = base_name(value) if value is not None else None
+        if name is not None:
+            yield _Change(name, how)
 
 
 def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
@@ -244,32 +247,10 @@ def _close(sets: dict[str, set[str]], calls: dict[str, set[str]]) -> None:
 
 def doing(program: ir.Program, does: Callable[[object], bool]) -> frozenset[str]:
     """The routines (folded names) with a node for which `does` holds, in themselves or in what they call."""
-    return doing_each(program, lambda node: ("",) if does(node) else (), ("",))[""]
-
-
-def doing_each(
-    program: ir.Program, does: Callable[[object], Iterable[str]], whats: Iterable[str]
-) -> dict[str, frozenset[str]]:
-    """For each of `whats`, the routines (folded names) with a node that `does` it, in themselves or in what they
-    call."""
-    below = done_below(program, does)
-    return {what: frozenset(name for name, found in below.items() if what in found) for what in whats}
-
-
-def done_below(program: ir.Program, does: Callable[[object], Iterable[str]]) -> dict[str, set[str]]:
-    """For each routine (folded name) what its nodes do, or those of what it calls."""
-    calls: dict[str, set[str]] = {}
     found: dict[str, set[str]] = {}
-    procedures = _procedures(program)
-    for module in program.modules:
-        for routine in module.routines:
-            name = routine.name.lower()
-            called, done = calls.setdefault(name, set()), found.setdefault(name, set())
-            for node in walk(routine):
-                called.update(_may_call(node, procedures))
-                done.update(does(node))
-    _close(found, calls)
-    return found
+    for routine in _routines(program):
+        found.setdefault(routine.name.lower(), set()).update(("",) if any(map(does, walk(routine))) else ())
+    return frozenset(name for name, done in _below(program, found).items() if done)
 
 
 def called_below(program: ir.Program, roots: set[str]) -> frozenset[str]:
@@ -278,7 +259,7 @@ def called_below(program: ir.Program, roots: set[str]) -> frozenset[str]:
     found, waiting = set(roots), list(roots)
     while waiting:
         routine = routines.get(waiting.pop())
-        for node in walk(*bodies(routine)) if routine is not None else ():
+        for node in walk_for(_CALLS, *bodies(routine)) if routine is not None else ():
             match node:
                 case ir.CallRoutine(name=name) | ir.Call(name=name) if name.lower() not in found:
                     found.add(name.lower())
