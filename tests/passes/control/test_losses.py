@@ -12,7 +12,7 @@ from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.refusals import refuse
 from rpl.passes.legalise.searches.searches import searches
 from rpl.passes.legalise.searches.searchparts import search_parts
-from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
+from rpl.passes.legalise.statements.structure import labels_to_structure
 
 from .common import count, nodes
 from .shaped import ALL, STRUCTURED, assign, context_for, less, number, program, rewritten, same, step, target, when

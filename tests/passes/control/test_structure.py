@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from rpl import ir
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.loops import fit_loops
-from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
+from rpl.passes.legalise.statements.structure import labels_to_structure
 from rpl.passes.legalise.statements.switches import unroll_switches
 
 from .common import count

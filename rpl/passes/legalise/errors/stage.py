@@ -17,7 +17,7 @@ from rpl.passes.legalise.errors.possiblecases import possible_cases
 from rpl.passes.legalise.errors.prelude import link_prelude
 from rpl.passes.legalise.errors.usedelements import used_elements
 from rpl.passes.legalise.stages import Clause, Stage, again
-from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
+from rpl.passes.legalise.statements.structure import labels_to_structure
 
 STAGE = Stage(
     "errors",

@@ -9,6 +9,7 @@ from rpl.passes.legalise.source.cyclicflags import cyclic_flags
 from rpl.passes.legalise.source.emptyreactions import without_empty_reactions
 from rpl.passes.legalise.source.fixeddata import fixed_data
 from rpl.passes.legalise.source.grownarrays import grown_arrays
+from rpl.passes.legalise.source.jumpsasblocks import jumps_as_blocks
 from rpl.passes.legalise.source.keptvalues import kept_values_known
 from rpl.passes.legalise.source.knownlimits import known_limits
 from rpl.passes.legalise.source.labellednames import labels_as_names
@@ -75,6 +76,7 @@ STAGE = Stage(
         step_times,
         load_variables,
         whole_times,
+        jumps_as_blocks,
         known_limits,
         counted_loops,
         timed_waits,

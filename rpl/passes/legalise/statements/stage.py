@@ -9,7 +9,6 @@ from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.passes.legalise.statements.enums import enums_to_constants
 from rpl.passes.legalise.statements.errors import check_errors
-from rpl.passes.legalise.statements.jumps.structure import labels_to_structure
 from rpl.passes.legalise.statements.logic import decide_logic
 from rpl.passes.legalise.statements.messages import message_lines, senders_as_texts, split_messages
 from rpl.passes.legalise.statements.polling import poll_waits
@@ -18,6 +17,7 @@ from rpl.passes.legalise.statements.pulselevels import pulse_levels
 from rpl.passes.legalise.statements.references import references_as_copies
 from rpl.passes.legalise.statements.restingwaits import resting_waits
 from rpl.passes.legalise.statements.seldomlooks import seldom_looks
+from rpl.passes.legalise.statements.structure import labels_to_structure
 from rpl.passes.legalise.statements.switches import unroll_switches
 from rpl.passes.legalise.statements.waits import fit_waits
 

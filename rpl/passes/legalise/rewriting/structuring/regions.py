@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from rpl import ir
 from rpl.passes.legalise.rewriting.editing import Editor
-from rpl.passes.legalise.statements.jumps.flowgraph import Around, Node, knots, reachable
+from rpl.passes.legalise.rewriting.structuring.flowgraph import Around, Node, knots, reachable
 
 _FIRST = 1
 Looping = ir.For | ir.While | ir.Repeat | ir.Loop

@@ -1,4 +1,4 @@
-"""Labels and jumps as structure, for targets that have neither (and NextPass for those without it).
+"""Labels and jumps as structure.
 
 Ways back become loops, ways forward branches; what is structured already and has no jumps in it stays as it is. Where
 several ways go into a loop at different places, a state variable in front of the loop's first branch tells which.
@@ -16,13 +16,11 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Limit
 from rpl.passes.conditions import opposite
-from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
-from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, passes_on
+from rpl.passes.legalise.rewriting.editing import Editor, expansion, passes_on
 from rpl.passes.legalise.rewriting.jumps import entered, goes_on, inside, labels, without_labels
-from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.statements.jumps.flowgraph import Builder
-from rpl.passes.legalise.statements.jumps.regions import Regions
+from rpl.passes.legalise.rewriting.structuring.flowgraph import Builder
+from rpl.passes.legalise.rewriting.structuring.regions import Regions
 
 INTO_FOR = code(
     "jump-into-counting-loop",
@@ -33,25 +31,13 @@ _DEEP = 50_000
 _Choice = tuple[list[tuple[ir.Expression, ir.Body]], ir.Body]
 
 
-@legalising(unless=lambda context: {"Goto", "Label"} <= context.capabilities.statements)
-def labels_to_structure(program: ir.Program, context: Context) -> ir.Program:
-    """The program without jumps, unless the target has them."""
-
-    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        plain = routine.returns is None and routine.kind != "function"
-        body = _restructured(editor, routine.body, bool(routine.handlers), plain)
-        others = edit_bodies(replace(routine, body=()), lambda other: _restructured(editor, other, False, False))
-        return replace(others, body=body)
-
-    return edit_routines(program, context, work)
-
-
 def _needs(editor: Editor, body: ir.Body) -> bool:
     lacking = "NextPass" not in editor.capabilities.statements
     return any(isinstance(one, ir.Goto) or (lacking and isinstance(one, ir.NextPass)) for one in statements_in(body))
 
 
-def _restructured(editor: Editor, body: ir.Body, raises: bool, returns: bool) -> ir.Body:
+def restructured(editor: Editor, body: ir.Body, raises: bool, returns: bool) -> ir.Body:
+    """The body without jumps. raises: a handler stands behind it; returns: its end may be reached by Return."""
     if not _needs(editor, body):
         return without_labels(body, labels(body))
     for statement in statements_in(body):

@@ -1,1 +1,0 @@
-"""Jumps as structure, for targets that have none."""
