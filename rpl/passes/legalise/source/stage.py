@@ -50,6 +50,7 @@ from rpl.passes.legalise.source.ways.constantorientations import constant_orient
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
 from rpl.passes.legalise.source.ways.splines import straight_splines, without_path_rules
 from rpl.passes.legalise.source.ways.turnedways import turned_ways
+from rpl.passes.legalise.source.wholeformulas import whole_formulas
 from rpl.passes.legalise.source.wholetimes import whole_times
 from rpl.passes.legalise.stages import Clause, Stage
 
@@ -76,6 +77,7 @@ STAGE = Stage(
         step_times,
         load_variables,
         whole_times,
+        whole_formulas,
         jumps_as_blocks,
         known_limits,
         counted_loops,
