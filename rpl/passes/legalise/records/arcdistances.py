@@ -51,11 +51,12 @@ _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, i
 _WITHIN = 0.999  # of the arc: a place farther than that from one end is at the other
 
 
-@legalising()
+@legalising(
+    unless=lambda context: PathRule.STRAIGHT_DISTANCES not in context.capabilities.motion.paths, sees=("Trigger",)
+)
 def arc_distances(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that measure places on a path straight."""
-    nodes = walk(*program.modules) if PathRule.STRAIGHT_DISTANCES in context.capabilities.motion.paths else ()
-    if not any(isinstance(node, ir.Trigger) for node in nodes):
+    if not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
         return program
     unchanged = seen_by_writers(program, context)
     drivers = closure(program, _MOTION)

@@ -52,11 +52,10 @@ _SAME_TURN = 1.0 - 1e-12  # product of two quaternions
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
 
 
-@legalising()
+@legalising(unless=lambda context: not context.capabilities.motion.cut_from_mm, sees=("Trigger",))
 def path_points(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that are asked for this."""
-    nodes = walk(*program.modules) if context.capabilities.motion.cut_from_mm else ()
-    if not any(isinstance(node, ir.Trigger) for node in nodes):
+    """Only for targets whose moves are cut."""
+    if not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
         return program
     drivers = closure(program, _MOTION)
     unchanged = seen_by_writers(program, context)
