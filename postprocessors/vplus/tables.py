@@ -78,6 +78,8 @@ FUNCTIONS = spelled(_WORDS.pairs("functions")) | {
     "character_code": "ASC",
     "error_text": "$ERROR",
 }
+# Functions of texts that a program which comes along makes (library.v2), and its name.
+BROUGHT_TEXTS = {"text_upper": "rpl.upper", "text_lower": "rpl.lower", "text_map": "rpl.map"}
 BYTES = {int(count): name for name, count in _WORDS.numbers("bytes").items()}  # whole numbers in a text
 # Spelled without an argument.
 VALUES = spelled(_WORDS.pairs("values")) | {"time_text": "$TIME()", "current_target": "HERE"}

@@ -142,16 +142,11 @@ class Texts:
 
     # ---- functions
 
-    def made(self, program: str, text: ir.Expression, further: list[ir.Expression]) -> str:
-        """A text that a program which comes along makes."""
-        expressions = self.expressions
-        notes = expressions.notes
-        shown = ", ".join(expressions.value(value) for value in (text, *further))
-        name = notes.temporary("$t")
-        notes.step(f"CALL {program}({shown}, {name})")
-        notes.autos.append(name)
-        notes.helpers.add(program)
-        return name
+    def brought(self, name: str, values: tuple[ir.Expression, ...], place: str) -> str:
+        """The call of a program that comes along and makes a text in a variable."""
+        program = tables.BROUGHT_TEXTS[name]
+        self.expressions.notes.helpers.add(program)
+        return f"CALL {program}({', '.join(map(self.expressions.value, values))}, {place})"
 
     def function(self, name: str, values: tuple[ir.Expression, ...]) -> str | Printed | None:
         expressions = self.expressions
@@ -169,11 +164,8 @@ class Texts:
                 return f"{tables.BYTES[count]}({expressions.text(text)})"
             case "bytes_number", (text, first, ir.IntLiteral(value=count)) if count in tables.BYTES:
                 return f"{tables.BYTES[count]}({expressions.text(text)}, {expressions.text(first)})"
-            case (("text_upper" | "text_lower" | "text_map"), (text, *further)):
-                return self.made(f"rpl.{name.removeprefix('text_')}", text, further)
-            case "text_equal", (one, other, ir.BoolLiteral(value=True)):
-                upper = [self.made("rpl.upper", value, []) for value in (one, other)]
-                return Printed(f"{upper[0]} == {upper[1]}", tables.RELATION)
+            case _ if name in tables.BROUGHT_TEXTS or (name == "text_equal" and values[2:] == (ir.BoolLiteral(True),)):
+                raise CannotSayError("a program makes this text, and it cannot be called inside of a condition")
             case "text_equal", (one, other, *rest) if not rest or rest[0] == ir.BoolLiteral(False):
                 level = tables.RELATION + 1
                 left, right = (expressions.printer.text(value, level) for value in (one, other))

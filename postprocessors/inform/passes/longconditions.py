@@ -32,8 +32,25 @@ def short_conditions(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Short(Hoister):
+    """`free`: variables for parts that no statement around has; `lent`: those that have one just now."""
+
     def __init__(self, editor: Editor) -> None:
         super().__init__(editor, lambda _: None)
+        self.free: list[ir.Name] = []
+        self.lent: list[ir.Name] = []
+
+    def placed(self, statement: ir.Statement) -> ir.Body:
+        since = len(self.lent)
+        done = super().placed(statement)
+        self.free[:0] = self.lent[since:]
+        del self.lent[since:]
+        return done
+
+    def part(self) -> ir.Name:
+        """A variable for a part of a condition; it serves the next statement again."""
+        name = self.free.pop(0) if self.free else self.editor.temporary("part", ir.BoolType())
+        self.lent.append(name)
+        return name
 
     def condition(self, expression: ir.Expression) -> Lowered:
         if isinstance(expression, ir.Unary) and expression.op == "not":
@@ -43,11 +60,11 @@ class _Short(Hoister):
         before, left = self.condition(expression.left)
         further, right = self.condition(expression.right)
         if further and not self.settled(left, further):
-            held = self.editor.temporary("part", ir.BoolType())
+            held = self.part()
             before, left = (*before, *_found_out(held, left)), _is_true(held)
         done, parts = replace(expression, left=left, right=right), [*before, *further]
         while _terms(done) > tables.SURE_TERMS:
-            held = self.editor.temporary("part", ir.BoolType())
+            held = self.part()
             longer_left = _terms(done.left) >= _terms(done.right)
             parts += _found_out(held, done.left if longer_left else done.right)
             done = replace(done, left=_is_true(held)) if longer_left else replace(done, right=_is_true(held))
