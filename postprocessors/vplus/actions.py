@@ -146,8 +146,10 @@ class Actions:
 
     def stored(self, target: ir.Expression, value: ir.Expression) -> str:
         text = self.expressions.text
-        if isinstance(value, ir.Builtin) and value.function in tables.BROUGHT_TEXTS:
-            return self.expressions.texts.brought(value.function, value.arguments, text(target))
+        if isinstance(value, ir.Builtin) and isinstance(target, ir.Name):
+            called = self.expressions.brought(value, text(target))
+            if called is not None:
+                return called
         match target:
             case ir.Field(base=base, name=name):
                 return f"SET {text(base)} = {self.expressions.places.locations.with_component(base, name, value)}"

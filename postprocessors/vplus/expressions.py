@@ -335,12 +335,10 @@ class Expressions:
 
     def power(self, values: tuple[ir.Expression, ...]) -> str | Printed:
         count = self.known(values[1])
-        if count == 2:
-            return f"SQR({self.text(values[0])})"
-        if count is None or not count.is_integer() or not 0 < count <= _LARGEST_POWER:
-            if count == 0.5:
-                return f"SQRT({self.text(values[0])})"
+        if count is None or tables.is_raised(count):
             return self.raised(*values)
+        if count in (0.5, 2):
+            return f"{'SQR' if count == 2 else 'SQRT'}({self.text(values[0])})"
         base = self.repeated(values[0])
         factor = base if re.fullmatch(r"[\w.$]+", base) else f"({base})"
         return Printed("*".join([factor] * int(count)), tables.PRODUCT)
@@ -357,12 +355,26 @@ class Expressions:
         return Printed(f"TASK(1, {number}) == 4", tables.RELATION)
 
     def raised(self, base: ir.Expression, exponent: ir.Expression) -> str:
-        """Any whole power, by a program that comes along."""
+        """Any power, by a program that comes along."""
         name = self.notes.temporary("t")
         self.notes.autos.append(name)
-        self.notes.step(f"CALL rpl.power({self.value(base)}, {self.value(exponent)}, {name})")
-        self.notes.helpers.add("rpl.power")
+        self.notes.step(self.raising(base, exponent, name))
         return name
+
+    def raising(self, base: ir.Expression, exponent: ir.Expression, place: str) -> str:
+        """The call that works out a power in a variable."""
+        self.notes.helpers.add("rpl.power")
+        return f"CALL rpl.power({self.value(base)}, {self.value(exponent)}, {place})"
+
+    def brought(self, wanted: ir.Builtin, place: str) -> str | None:
+        """The call of a program that comes along and gives the value in a variable; None where V+ says it itself."""
+        match wanted:
+            case ir.Builtin(function="power", arguments=(base, exponent)):
+                count = self.known(exponent)
+                return self.raising(base, exponent, place) if count is None or tables.is_raised(count) else None
+            case ir.Builtin(function=name, arguments=values) if name in tables.BROUGHT_TEXTS:
+                return self.texts.brought(name, values, place)
+        return None
 
     def value(self, expression: ir.Expression) -> str:
         """An argument by its value."""
@@ -385,7 +397,6 @@ class Expressions:
 
 _SHORT = 30
 _NAME = 8  # a value that is no longer than this gets no variable
-_LARGEST_POWER = 6
 _Special = Callable[[Expressions, tuple[ir.Expression, ...]], "str | Printed"]
 _SPECIAL: dict[str, _Special] = {
     "tan": Expressions.tangent,

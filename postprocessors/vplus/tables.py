@@ -80,6 +80,14 @@ FUNCTIONS = spelled(_WORDS.pairs("functions")) | {
 }
 # Functions of texts that a program which comes along makes (library.v2), and its name.
 BROUGHT_TEXTS = {"text_upper": "rpl.upper", "text_lower": "rpl.lower", "text_map": "rpl.map"}
+_LARGEST_POWER = 6  # as a product
+
+
+def is_raised(exponent: float) -> bool:
+    """Does a program that comes along work out this power? Small whole ones are products, 0.5 is a root."""
+    return exponent != 0.5 and not (exponent.is_integer() and 0 < exponent <= _LARGEST_POWER)
+
+
 BYTES = {int(count): name for name, count in _WORDS.numbers("bytes").items()}  # whole numbers in a text
 # Spelled without an argument.
 VALUES = spelled(_WORDS.pairs("values")) | {"time_text": "$TIME()", "current_target": "HERE"}

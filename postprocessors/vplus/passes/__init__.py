@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
-from .broughttexts import brought_texts
+from .broughtvalues import brought_values
 from .onenamespace import one_namespace
 from .reactionsearches import reaction_searches
 
 PASSES: tuple[Placed, ...] = (
     Placed(reaction_searches, "searches", behind="searches"),
-    Placed(brought_texts, "control", behind="functions_to_procedures"),
+    Placed(brought_values, "control", behind="functions_to_procedures"),
 )
 LAST = (one_namespace,)

@@ -1,4 +1,4 @@
-"""Texts in other letters, which V+ has no function for: programs that come along make them, in front of what asks."""
+"""Texts in other letters and powers, which V+ has no function for: programs that come along, in front of what asks."""
 
 from __future__ import annotations
 
@@ -38,6 +38,34 @@ def test_they_are_made_anew_wherever_they_are_asked_for() -> None:
     assert "CALL rpl.upper(($t), $u)" in lines  # straight into the variable that gets it
     asks = lines.index("WHILE TRUE DO")
     assert lines[asks + 1].startswith("CALL rpl.upper(($t), $t")
+    back = read_sources([source_from_bytes(file.path, file.data)], "vplus", Diagnostics())
+    proof = prove_programs(read.program, back.program, "adept_viper_s650")
+    assert proof.agrees, proof.as_text()
+
+
+POWERS = """PROCEDURE main()
+VAR x: REAL
+VAR n: INT
+SET n TO 3
+SET x TO power(1.5, n)
+WHILE power(x, 0.25) < 1.5
+SET x TO x + power(2.0, -n)
+END WHILE
+SET x TO power(x, 3)
+IF x > 134.6 AND x < 134.7 THEN SET do[1] TO ON
+END PROCEDURE
+"""
+
+
+def test_powers_of_any_exponent() -> None:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text("powers.rpl", POWERS)], "rpl", diagnostics)
+    written = translate_program(read, "vplus", "adept_viper_s650", None, diagnostics)
+    assert not diagnostics.of(Severity.LOSS)
+    [file] = [file for file in written.files if file.path.endswith(".v2")]
+    lines = [line.strip() for line in file.data.decode("ascii").splitlines()]
+    assert "CALL rpl.power(1.5, (n), x)" in lines
+    assert "x = x*x*x" in lines
     back = read_sources([source_from_bytes(file.path, file.data)], "vplus", Diagnostics())
     proof = prove_programs(read.program, back.program, "adept_viper_s650")
     assert proof.agrees, proof.as_text()

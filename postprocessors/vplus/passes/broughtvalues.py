@@ -1,4 +1,4 @@
-"""Functions of texts that V+ has not: a program that comes along makes the text, `CALL rpl.upper(($t), $result)`.
+"""Functions that V+ has not: a program that comes along gives the value, `CALL rpl.upper(($t), $result)`.
 
 So such a function stands alone on the right side of an assignment to a variable. Where a condition of a loop asks for
 it, it is made anew in each pass.
@@ -7,6 +7,7 @@ it, it is made anew in each pass.
 from __future__ import annotations
 
 from rpl import ir
+from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
@@ -18,9 +19,9 @@ from .. import tables
 _IGNORING_CASE = ir.BoolLiteral(True)
 
 
-@legalising(sees=[f"function {name}" for name in (*tables.BROUGHT_TEXTS, "text_equal")])
-def brought_texts(program: ir.Program, context: Context) -> ir.Program:
-    """Texts in other letters are made in front of the statement that wants them."""
+@legalising(sees=[f"function {name}" for name in (*tables.BROUGHT_TEXTS, "text_equal", "power")])
+def brought_values(program: ir.Program, context: Context) -> ir.Program:
+    """Texts in other letters, and powers that are no products, are worked out in front of the statement."""
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Brought(editor).body)
@@ -41,7 +42,17 @@ class _Brought(Hoister):
             case ir.Builtin(function=name) if name in tables.BROUGHT_TEXTS:
                 kept = self.editor.temporary("t", ir.StringType())
                 return (ir.Assign(kept, expression),), kept
+            case ir.Builtin(function="power") if self.is_brought(expression):
+                result = self.editor.temporary("t", ir.RealType())
+                return (ir.Assign(result, expression),), result
         return None
+
+    def is_brought(self, wanted: ir.Builtin) -> bool:
+        """Does a program that comes along give the value?"""
+        if wanted.function != "power":
+            return wanted.function in tables.BROUGHT_TEXTS
+        exponent = constant_number(wanted.arguments[1], self.editor.scope)
+        return exponent is None or tables.is_raised(exponent)
 
     def in_capitals(self, text: ir.Expression) -> Lowered:
         """A text to be compared without regard to case; of a known one that is known."""
@@ -59,13 +70,11 @@ class _Brought(Hoister):
 
     def single(self, statement: ir.Statement) -> ir.Body:
         match statement:
-            case ir.Assign(target=ir.Name(), value=ir.Builtin(function=name, arguments=given) as value) if (
-                name in tables.BROUGHT_TEXTS
-            ):
+            case ir.Assign(target=ir.Name(), value=ir.Builtin(arguments=given) as value) if self.is_brought(value):
                 before, made_of = self.several(given, [False] * len(given))
                 alone = changed(statement, value=changed(value, arguments=tuple(made_of)))
                 return self.expanded(statement, before, alone)
         return super().single(statement)
 
 
-__all__ = ["brought_texts"]
+__all__ = ["brought_values"]
