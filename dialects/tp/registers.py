@@ -276,6 +276,7 @@ def declarations(facts: Facts, dump: Dump) -> tuple[ir.Declaration, ...]:
     if facts.wait_timeout:
         value = ir.IntLiteral(tables.WAIT_TIMEOUT_DEFAULT)
         made.append(_global(tables.WAIT_TIMEOUT, ir.IntType(), value))
+    made.extend(_named_flags(facts))
     if said := _notes(facts, *tables.NUMBERED_SIGNALS, *tables.NAMED_SIGNALS):
         made.append(ir.Unread("", origin=Origin(comments=said)))
     return tuple(made)
@@ -283,6 +284,15 @@ def declarations(facts: Facts, dump: Dump) -> tuple[ir.Declaration, ...]:
 
 def _global(name: str, type: ir.Type, initial: ir.Expression | None, label: str = "") -> ir.Variable:
     return ir.Variable(name, type, initial, "persistent", "global", label)
+
+
+def _named_flags(facts: Facts) -> Iterable[ir.SignalDeclaration]:
+    """Flags whose comment is a word that no other one has (`F[3:part_ready]`): the controller's own names for them."""
+    labels = {number: text.strip() for (bank, number), text in facts.labels.items() if bank == "F"}
+    for number, text in sorted(labels.items()):
+        alone = sum(other.lower() == text.lower() for other in labels.values()) == 1
+        if alone and re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", text):
+            yield ir.SignalDeclaration(text, ir.Signal("flag", ir.IntLiteral(number)), "global")
 
 
 def _notes(facts: Facts, *banks: str) -> tuple[Comment, ...]:

@@ -27,6 +27,7 @@ _WORDS: dict[type, str] = {
 }
 _COUNTING = {"increment": "Incr", "decrement": "Decr", "clear": "Clear"}
 _KEYS = 5
+_PULSE_S = 0.2  # the length of a pulse that says none
 NO_HEADLINE = '"Program"'  # of an error message whose source gives none
 _SETTINGS = {"joint_configuration_check": "ConfJ", "path_configuration_check": "ConfL"}
 _MODES = {
@@ -254,6 +255,8 @@ class Instructions:
         high = pulse.value == ir.BoolLiteral(True)
         if not high and pulse.value != ir.Unary("not", pulse.signal):
             raise CannotSayError("a pulse goes high or to the opposite")
+        if isinstance(pulse.duration, ir.RealLiteral) and pulse.duration.value == _PULSE_S:
+            length = ""
         return self.say("pulse", high=high, length=length, signal=name)
 
     def delayed(self, signal: ir.Expression, value: ir.Expression, delay: ir.Expression) -> str:

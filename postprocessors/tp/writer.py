@@ -135,6 +135,9 @@ class _Writer:
             case ir.Variable(name=name) if _is_bank(name):
                 self.ledger.merged(declaration)
                 return []
+            case ir.SignalDeclaration(signal=ir.Signal(kind="flag", index=ir.IntLiteral())):
+                self.ledger.merged(declaration)  # the name stands in the brackets
+                return []
             case ir.Initialise(assign=ir.Assign(target=ir.Index(base=ir.Name(id="UTOOL" | "UFRAME")))):
                 self.ledger.merged(declaration)  # it stands in the dump of frames
                 return []

@@ -70,3 +70,14 @@ def test_an_element_of_a_position_register_carries_the_registers_comment() -> No
 def test_targets_with_numbers_keep_them() -> None:
     text = written("1: R[7:count]=0;\n2: R[7:count]=R[7:count]+1;", "inform")
     assert "count" not in text.replace("'", ""), text
+
+
+def test_flags_have_the_names_of_their_comments() -> None:
+    text = written("1: F[1:ready]=(OFF);\n2: F[2:part ok]=(ON);\n3: WAIT (F[1:ready]);", "krl")
+    assert "DECL GLOBAL BOOL ready=FALSE" in text and "ready=FALSE" in text and "WAIT FOR ready" in text, text
+    assert "$FLAG[2]=TRUE" in text, text
+
+
+def test_flags_that_the_run_chooses_keep_their_numbers() -> None:
+    text = written("1: F[1:ready]=(OFF);\n2: R[1]=1;\n3: F[R[1]]=(ON);", "krl")
+    assert "$FLAG[1]=FALSE" in text, text

@@ -53,8 +53,11 @@ def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
     world = {key for key, pose in found["base"].items() if _said(key, said) == 0 and pose == rigid.IDENTITY}
     for key in world:
         del found["base"][key]
+    flange = {key for key, pose in found["tool"].items() if pose == rigid.IDENTITY and not names_in(key[0])}
+    for key in flange:
+        del found["tool"][key]
     made = {name: _numbered(name, found[name], said, context) for name in tables.SELECTED}
-    numbers: dict[Key, ir.Expression] = dict.fromkeys(world, ir.System("null_frame"))
+    numbers: dict[Key, ir.Expression] = dict.fromkeys(world | flange, ir.System("null_frame"))
     numbers |= {key: element(name, n) for name, table in made.items() for key, n in table.numbers.items()}
     if not numbers:
         return program

@@ -5,7 +5,7 @@ nested expressions become steps, and again behind labels, whose conditions are o
 
 from __future__ import annotations
 
-from rpl.passes.legalise.control.elseif import nest_branches
+from rpl.passes.legalise.control.elseif import join_branches, nest_branches
 from rpl.passes.legalise.control.functions import functions_to_procedures
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.locals import variables_of_routines
@@ -23,6 +23,7 @@ STAGE = Stage(
         steps,
         variables_of_routines,
         nest_branches,
+        join_branches,
         structure_to_labels,
         again(steps, "conditions of the jumps that structure has become are opposites"),
     ),
