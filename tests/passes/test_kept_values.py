@@ -245,7 +245,7 @@ def test_a_dump_or_a_cell_file_gives_the_value(target: str) -> None:
 
 def test_targets_that_keep_data_keep_it() -> None:
     written = translate_program(read("tp", listing("R[1]=R[2]"), ("NUMREG.VA", NUMREG)), "rapid")
-    assert b"PERS num R2:=10;" in written.files[0].data
+    assert b"PERS num speed:=10; !R2" in written.files[0].data
 
 
 def test_a_run_goes_on_from_zero_and_says_so_once() -> None:
