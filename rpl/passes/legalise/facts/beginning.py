@@ -20,7 +20,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, Value, constant
 from rpl.passes.legalise.facts.entries import calls_of, moving_entries, reached, routines_beside
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, usage_of
-from rpl.passes.legalise.kinds import gathering, kinds_in_routine
+from rpl.passes.legalise.kinds import gathering, kinds_in_routine, walk_for
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target, component, literal
@@ -30,6 +30,7 @@ Place = tuple[int, str, tuple[int, ...], str]
 Settled = dict[tuple[str, tuple[int, ...]], Value]
 
 _MODAL = ("tool", "base")
+_NAMING = frozenset(("CallRoutine", "Call", "ConnectInterrupt", "TaskControl", "OnError"))
 _MOVING = frozenset(("Move", "MoveExternal", "Spline"))
 _MOST_STEPS = 2000  # statements carried out; a longer beginning is no preparation
 _MOST_ELEMENTS = 100  # of an array whose first values are looked at
@@ -434,7 +435,7 @@ def _sites(program: ir.Program) -> dict[str, int]:
     """How often each routine (folded) is named as one to be run; calls by a text may mean any."""
     found: dict[str, int] = {}
     dynamic = 0
-    for node in walk(*program.modules):
+    for node in walk_for(_NAMING, *program.modules):
         match node:
             case ir.CallRoutine(dynamic=text) if text is not None:
                 dynamic = 1

@@ -20,6 +20,7 @@ from rpl.passes.legalise.context import Arm, Context, array
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.jumps import LOOPS
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.scope import ProgramScope, Scope
@@ -79,7 +80,9 @@ class Whereabouts:
         self.moving = doing(program, _moves)
         make = registry.dialect(context.source).notation
         self.notation: Any = None if make is None else make()
-        self.displaced = any(one == ir.System("displacement") for one in walk(*program.modules))
+        self.displaced = any(
+            one == ir.System("displacement") for one in walk_for({"system displacement"}, *program.modules)
+        )
         if not self.displaced:
             for module, routine in self.scopes.routines():
                 self.scope: Scope = self.scopes.routine(module, routine)

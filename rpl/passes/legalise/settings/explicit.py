@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.settings import carriedframes
@@ -80,7 +81,7 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     usual = usual_places(program) | usual_turns(program, context)
     entries = moving_entries(program)
     looks_ahead = "advance" in context.capabilities.system_variables
-    on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk(*program.modules))
+    on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk_for({"Move"}, *program.modules))
     quiet, below, turns = _quiet(program), assigned_below(program), not turns_as_usual(program)
     restless = not quiet.issuperset(name.lower() for name in reactions(program))
     modules = []

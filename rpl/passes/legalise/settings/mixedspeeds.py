@@ -10,9 +10,9 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
@@ -28,7 +28,7 @@ UNKNOWN = code(
 @legalising(unless=lambda context: not context.capabilities.settings.modal)
 def mixed_speeds(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion, and programs with both kinds of moves."""
-    moves = [node for node in walk(*program.modules) if isinstance(node, ir.Move)]
+    moves = [node for node in walk_for({"Move"}, *program.modules) if isinstance(node, ir.Move)]
     mixed = {
         kind for kind in ("path", "joint") if {_has(move) for move in moves if _kind(move) == kind} == {True, False}
     }

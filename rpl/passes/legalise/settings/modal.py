@@ -16,6 +16,7 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, State
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.places.circles import has_arcs
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import with_data
@@ -488,7 +489,7 @@ def _settings_made(program: ir.Program) -> set[str]:
 
 def _set_in_parts(program: ir.Program) -> Iterator[str]:
     """Data of which a statement sets a component, once for each."""
-    for node in walk(*program.modules):
+    for node in walk_for({"Assign"}, *program.modules):
         match node:
             case ir.Assign(target=ir.Field(base=ir.Name(id=name))):
                 yield name

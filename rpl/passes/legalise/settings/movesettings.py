@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting, SettingRule
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.facts.settingsinforce import SETTINGS, SettingsInForce, State
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
 from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
@@ -44,7 +44,7 @@ _PARTS = {
 
 
 def _tools(program: ir.Program) -> Iterator[ir.Expression]:
-    for node in walk(*program.modules):
+    for node in walk_for({"system tool"}, *program.modules):
         if isinstance(node, ir.Assign) and node.target == ir.System("tool"):
             yield node.value
 

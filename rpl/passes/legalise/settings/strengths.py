@@ -13,11 +13,11 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.saidaccelerations import number_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.modal import DROPPED
@@ -37,7 +37,7 @@ _FULL = 100.0
 @legalising(unless=lambda context: not context.foreign or context.capabilities.carries_rules)
 def strengths(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with rules of their own, and programs that say such a percentage."""
-    if not any(_says(node) for node in walk(*program.modules)):
+    if not any(map(_says, walk_for({"Move", "Assign"}, *program.modules))):
         return program
     return edit_all(program, _Strengths(program, context).body)
 
@@ -81,13 +81,13 @@ class _Strengths:
     def __init__(self, program: ir.Program, context: Context) -> None:
         can = context.capabilities
         self.context, self.flow = context, SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
-        said = {name for node in walk(*program.modules) for name in _set(node)}
+        said = {name for node in walk_for({"Assign"}, *program.modules) for name in _set(node)}
         self.apart = has_both(context.source) or DOWN in said
         in_numbers = {"path_acceleration", "axis_acceleration"} <= can.settings.speeds
         self.at_moves = UP not in can.system_variables and not in_numbers
         self.modal, self.moves_say = DOWN in can.system_variables, MoveSetting.DECELERATION in can.settings.of_moves
         self.reported: set[tuple[str, str]] = set()
-        moves = [node for node in walk(*program.modules) if isinstance(node, ir.Move)]
+        moves = [node for node in walk_for({"Move"}, *program.modules) if isinstance(node, ir.Move)]
         self.known = all(self.flow.at(move).get(UP) is not None for move in moves)
 
     def body(self, body: ir.Body) -> ir.Body:

@@ -11,9 +11,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 
@@ -36,14 +37,14 @@ def usual_accelerations(program: ir.Program, context: Context) -> ir.Program:
     if given is None or _SETTING in can.settings.speeds:
         return program
     own, usual = float(given), float(rules_of(context.target).system_defaults.get(_SETTING, _USUAL_MM_S2))
-    first = next((node for node in walk(*program.modules) if _on_path(node)), None)
+    first = next((node for node in walk_for({"Move"}, *program.modules) if _on_path(node)), None)
     if not isinstance(first, ir.Move):
         return program
     if _SETTING not in can.system_variables or not can.settings.modal:
         if own != usual:
             context.diagnostics.report(DIFFERS, first.origin, own=own)
         return program
-    if any(isinstance(node, ir.Move) and _said(node) is not None for node in walk(*program.modules)):
+    if any(isinstance(node, ir.Move) and _said(node) is not None for node in walk_for({"Move"}, *program.modules)):
         program = rewrite(program, lambda node: _set_around(node, own) if isinstance(node, ir.Move) else node)
     return program if own == usual else _set_first(program, own)
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.kinds import walk_for
 
 TURNING = frozenset(("swivel_speed", "twist_speed"))
 
@@ -12,7 +12,7 @@ TURNING = frozenset(("swivel_speed", "twist_speed"))
 def usual_places(program: ir.Program) -> frozenset[str]:
     """Tool and base, where some moves name theirs, others none, and no statement sets it: that is then the flange and
     the world (INFORM moves behind SFTOF)."""
-    nodes = [*walk(*program.modules)]
+    nodes = [*walk_for({"Move", "Assign"}, *program.modules)]
     moves = [node for node in nodes if isinstance(node, ir.Move)]
     given = {"tool": [one.tool for one in moves], "base": [one.frame for one in moves]}
     mixed = {name for name, values in given.items() if None in values and any(value is not None for value in values)}
@@ -22,6 +22,7 @@ def usual_places(program: ir.Program) -> frozenset[str]:
     )
 
 
+_TURNING_KINDS = frozenset(("Speed", "Assign", "Aggregate", "function offset", "function tool_offset"))
 # Below it, deg/s, somebody wants slow turns.
 _CHOSEN_TURN_DEG_S = 100.0
 
@@ -30,7 +31,7 @@ def usual_turns(program: ir.Program, context: Context) -> frozenset[str]:
     """Turning speeds, where some moves say theirs by itself and no statement sets it: the others have the usual one."""
     known = TURNING & context.capabilities.system_variables & rules_of(context.target).system_defaults.keys()
     said = False
-    for node in walk(*program.modules):
+    for node in walk_for({"Move", "Assign"}, *program.modules):
         match node:
             case ir.Assign(target=ir.System(name=name)) if name in TURNING:
                 return frozenset()
@@ -42,7 +43,7 @@ def usual_turns(program: ir.Program, context: Context) -> frozenset[str]:
 def turns_as_usual(program: ir.Program) -> bool:
     """Do all speeds let the tool turn as fast as predefined ones do, and does no move turn in place? Then its path says
     how fast it is, and the turning speed is no setting that anybody has made."""
-    for node in walk(*program.modules):
+    for node in walk_for(_TURNING_KINDS, *program.modules):
         match node:
             case ir.Speed(rotation=rotation) if rotation is not None:
                 return False
