@@ -7,6 +7,7 @@ controller itself stops at cannot be caught this way; handlers that may be for s
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from rpl import ir
@@ -312,6 +313,11 @@ class _Handling(_Passing):
             self._variables[stem] = self.editor.temporary(stem, ir.BoolType())
         return self._variables[stem]
 
+    def forget(self, stem: str) -> None:
+        """Nothing uses that variable after all."""
+        name = self._variables.pop(stem).id
+        self.editor.added = [one for one in self.editor.added if one.name != name]
+
     def finished(self, steps: ir.Body) -> ir.Body:
         return self.unit(steps)
 
@@ -344,9 +350,16 @@ class _Handling(_Passing):
         if self.editor.capabilities.statements >= _JUMPS and "Repeat" not in self.editor.capabilities.statements:
             self.again = self.editor.context.fresh("retry")
             return (ir.Label(self.again), *self.core(steps))
+        known = "retry" in self._variables
         again = self.variable("retry")
+        core = self.core(steps)
+        plain = _until(core, again)
+        if plain is not None:
+            if not known:
+                self.forget("retry")
+            return (plain,)
         start = ir.Assign(again, ir.BoolLiteral(False))
-        return (ir.Repeat(ir.Unary("not", again), (start, *self.core(steps))),)
+        return (ir.Repeat(ir.Unary("not", again), (start, *core)),)
 
     def core(self, steps: ir.Body) -> ir.Body:
         raising = [at for at, step in enumerate(steps) if self.raises(step)]
@@ -484,3 +497,18 @@ class _Handling(_Passing):
 
 def _ways_out(statement: ir.Statement) -> bool:
     return any(isinstance(one, ir.Retry | ir.TryNext | ir.Raise) for one in statements_in((statement,)))
+
+
+def _until(core: ir.Body, again: ir.Name) -> ir.Repeat | None:
+    """The statement and its handler until the handler does not run: where nothing but the handler's end says that it is
+    tried again, and its condition is a variable that stays as it is, that variable says it."""
+    match core:
+        case (*head, ir.If(branches=((ir.Name() as failed, (*inner, ir.Assign(target=told))),), otherwise=()) as last):
+            if told != again or again in _targets((*head, *inner)) or failed in _targets(inner):
+                return None
+            return ir.Repeat(ir.Unary("not", failed), (*head, replace(last, branches=((failed, tuple(inner)),))))
+    return None
+
+
+def _targets(body: Iterable[ir.Statement]) -> list[ir.Expression]:
+    return [one.target for one in statements_in(tuple(body)) if isinstance(one, ir.Assign)]
