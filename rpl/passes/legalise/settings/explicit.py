@@ -31,7 +31,7 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names
 from rpl.passes.typing import type_of
-from rpl.source import Origin
+from rpl.source import NOWHERE, Origin
 
 JOINT_TOOL_SPEED = code(
     "approximated-tool-speed",
@@ -357,7 +357,9 @@ class Modal:
             return frame
         user, item = self.component(frame, "user_frame"), self.component(frame, "object_frame")
         if _is_identity(item):
-            return ir.System("null_frame") if _is_identity(user) else user
+            if not _is_identity(user):
+                return user
+            return ir.Field(frame, "user_frame") if self.is_taught(frame) else ir.System("null_frame")
         return item if _is_identity(user) else ir.Binary(":", user, item)
 
     def type(self, expression: ir.Expression) -> ir.Type | None:
@@ -371,10 +373,17 @@ class Modal:
             names = component_names(type, self.scope) if type is not None else ()
             for position, (written, entry) in enumerate(aggregate.entries):
                 if (written or (names[position] if position < len(names) else "")) == name:
-                    if name in ("frame", "user_frame", "object_frame") and not _is_identity(entry):
+                    taught = name == "frame" and self.is_taught(value)
+                    if name in ("frame", "user_frame", "object_frame") and (taught or not _is_identity(entry)):
                         break  # frames stay by name: people re-teach them
                     return entry
         return ir.Field(value, name)
+
+    def is_taught(self, value: ir.Expression) -> bool:
+        """Is it data that the program declares, which may still be zero? Else the language has it (tool0, wobj0)."""
+        symbol = self.scope.value(value.id) if isinstance(value, ir.Name) else None
+        declared = None if symbol is None else symbol.declaration
+        return isinstance(declared, ir.Variable) and declared.origin is not NOWHERE
 
     def constant_aggregate(self, value: ir.Expression) -> ir.Aggregate | None:
         if isinstance(value, ir.Aggregate):
