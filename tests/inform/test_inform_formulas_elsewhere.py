@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 from inform_helpers import job
-
-from tests.there_and_back import there_and_back
+from there_and_back import there_and_back
 
 STEPS = """SET B001 7
 SET D000 B001

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.there_and_back import there_and_back
+from there_and_back import there_and_back
 
 MODULE = """MODULE z
   PERS tooldata tGrip:=[TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];

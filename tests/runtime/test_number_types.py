@@ -137,7 +137,7 @@ def test_a_register_that_may_be_tuned_keeps_its_fraction() -> None:
         "/POS\n/END\n"
     )
     text = there_and_back({"A.LS": listing}, "tp", "krl").text
-    assert "REAL R1=" in text and "INT R2=" in text and "INT R3=" in text
+    assert "REAL share=" in text and "INT count=" in text and "INT state=" in text
 
 
 # ---- what may come out otherwise elsewhere

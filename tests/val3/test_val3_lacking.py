@@ -107,10 +107,10 @@ def test_taught_points_of_programs_are_data_on_their_frame_with_their_posture() 
     three = "/PROG  THREE\n/ATTR\n/MN\n   1:  DO[1]=ON ;\n/POS\n/END\n"
     journey = there_and_back({"one.ls": one, "two.ls": two, "three.ls": three}, "tp", "val3", "fanuc_m10ia")
     data = next(file.data.decode("utf-8-sig") for file in journey.written.files if file.path.endswith(".dtx"))
-    row = r'<Data name="(p1\w*)".*\n *<Value key="0" x="(\d+)".* shoulder="(\w+)".*fatherId="(.*?)"'
+    row = r'<Data name="(above\w*)".*\n *<Value key="0" x="(\d+)".* shoulder="(\w+)".*fatherId="(.*?)"'
     found = sorted(re.findall(row, data))
-    assert found == [("p1", "500", "righty", "frame1[0]"), ("p1_two", "550", "righty", "frame1[0]")]
-    assert not re.search(r"p1\w*\.trsf=", journey.text)
+    assert found == [("above", "500", "righty", "frame1[0]"), ("above_two", "550", "righty", "frame1[0]")]
+    assert not re.search(r"above\w*\.trsf=", journey.text)
 
 
 SEARCH = """MODULE job

@@ -27,7 +27,7 @@ def written(program: ir.Program, source: str, target: str) -> ir.Program:
     diagnostics = Diagnostics()
     writer = registry.target(target)
     context = Context(source, target, writer.capabilities(), diagnostics, analog=ANALOG)
-    legal = legalise(program, context)
+    legal = legalise(program, context, writer.passes())
     files = writer.write(legal, WriteContext(diagnostics))
     back = read_sources([source_from_bytes(file.path, file.data) for file in files], target, diagnostics).program
     assert not [item.as_text() for item in diagnostics if item.severity >= Severity.LOSS]
