@@ -4,6 +4,7 @@ itself. No register stands between, and the copy is not read from the point once
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from rpl import ir
@@ -96,14 +97,26 @@ def _spelled(statement: ir.Statement, editor: Editor) -> ir.Body:
             if name.lower() in read or not all(map(editor.effects.safe, way)):
                 return (statement,)
             first = () if base.id.lower() == name.lower() else (replace(statement, value=base),)
-            parts = [ir.Field(place, part) for part in _WAYS]
-            sums = tuple(
-                ir.Assign(part, ir.Binary("+", part, one))
-                for part, one in zip(parts, way, strict=True)
-                if constant(one, editor.scope) != 0
-            )
-            return expansion(statement.origin, (*first, *sums)) or (statement,)
+            return expansion(statement.origin, (*first, *_sums(place, way, editor))) or (statement,)
+        case ir.Assign(
+            target=ir.System(name="tool" | "base"), value=ir.Builtin(function="offset", arguments=(base, *way))
+        ) if len(way) == len(_WAYS):
+            type = editor.type_of(base)
+            if type is not None:  # UTOOL and UFRAME take a whole register
+                moved = editor.temporary("moved", type)
+                steps = (ir.Assign(moved, base), *_sums(moved, way, editor), replace(statement, value=moved))
+                return expansion(statement.origin, steps)
     return (statement,)
+
+
+def _sums(place: ir.Name, way: Sequence[ir.Expression], editor: Editor) -> ir.Body:
+    """Each way that is not zero, added to its part of the place."""
+    parts = [ir.Field(place, part) for part in _WAYS]
+    return tuple(
+        ir.Assign(part, ir.Binary("+", part, one))
+        for part, one in zip(parts, way, strict=True)
+        if constant(one, editor.scope) != 0
+    )
 
 
 __all__ = ["filled_places"]
