@@ -45,6 +45,12 @@ def test_checks_that_go_back_to_one_label_are_loops_in_one_another() -> None:
     assert written(program(*COUNTING)) == (ir.Repeat(NOT_B, (inner, assign("a", 0), plus("b"))), step(2))
 
 
+def test_checks_directly_behind_the_label() -> None:
+    """Two inputs that are asked until both are there."""
+    body = (assign("a", 2), assign("b", 2), ir.Label("x"), goto(A, "x"), goto(B, "x"), step(1))
+    assert written(program(*body)) == (*body[:2], ir.Repeat(NOT_B, (ir.Repeat(NOT_A, ()),)), step(1))
+
+
 def test_without_a_loop_that_checks_at_its_end_a_loop_is_left() -> None:
     body = written(program(*COUNTING), statements=ALL - {"Repeat"})
     assert isinstance(body[0], ir.Loop) and not count(program(*body), ir.Goto)

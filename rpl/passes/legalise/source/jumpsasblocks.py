@@ -80,8 +80,9 @@ def _goes_back(statement: ir.Statement, label: str) -> bool:
 def _repeat(body: ir.Body, check: ir.Statement) -> ir.Repeat:
     """The body until the check does not go back; what is remarked at the check stands at the end of the body."""
     assert isinstance(check, ir.If)
-    remarks = (ir.Nothing(origin=check.origin),) if check.origin.comments else ()
-    return ir.Repeat(opposite(check.branches[0][0]), (*body, *remarks), origin=replace(body[0].origin, comments=()))
+    condition, jump = check.branches[0]
+    remarks = tuple(ir.Nothing(origin=one.origin) for one in (check, *jump) if one.origin.comments)
+    return ir.Repeat(opposite(condition), (*body, *remarks), origin=replace(check.origin, comments=()))
 
 
 def _has_jumps(body: ir.Body) -> bool:

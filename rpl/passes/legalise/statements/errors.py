@@ -313,6 +313,27 @@ class _Handling(_Passing):
             self._variables[stem] = self.editor.temporary(stem, ir.BoolType())
         return self._variables[stem]
 
+    def until(self, core: ir.Body, again: ir.Name) -> ir.Repeat | None:
+        """The statement and its handler until the handler does not run: where nothing but the handler's end says that
+        it is tried again, and its condition is a variable of the routine that the handler does not name."""
+        match core:
+            case (
+                *head,
+                ir.If(branches=((ir.Name() as failed, (*inner, ir.Assign(target=told))),), otherwise=()) as last,
+            ):
+                if told != again or again in _targets((*head, *inner)) or not self.is_own(failed):
+                    return None
+                if any(isinstance(one, ir.Name) and one.id.lower() == failed.id.lower() for one in walk(tuple(inner))):
+                    return None
+                return ir.Repeat(ir.Unary("not", failed), (*head, replace(last, branches=((failed, tuple(inner)),))))
+        return None
+
+    def is_own(self, name: ir.Name) -> bool:
+        """A variable that nothing outside of the routine can change."""
+        symbol = self.editor.scope.value(name.id)
+        declared = None if symbol is None else symbol.declaration
+        return isinstance(declared, ir.Variable) and declared.scope == "routine" and declared.storage == "variable"
+
     def forget(self, stem: str) -> None:
         """Nothing uses that variable after all."""
         name = self._variables.pop(stem).id
@@ -353,7 +374,7 @@ class _Handling(_Passing):
         known = "retry" in self._variables
         again = self.variable("retry")
         core = self.core(steps)
-        plain = _until(core, again)
+        plain = self.until(core, again)
         if plain is not None:
             if not known:
                 self.forget("retry")
@@ -497,17 +518,6 @@ class _Handling(_Passing):
 
 def _ways_out(statement: ir.Statement) -> bool:
     return any(isinstance(one, ir.Retry | ir.TryNext | ir.Raise) for one in statements_in((statement,)))
-
-
-def _until(core: ir.Body, again: ir.Name) -> ir.Repeat | None:
-    """The statement and its handler until the handler does not run: where nothing but the handler's end says that it is
-    tried again, and its condition is a variable that stays as it is, that variable says it."""
-    match core:
-        case (*head, ir.If(branches=((ir.Name() as failed, (*inner, ir.Assign(target=told))),), otherwise=()) as last):
-            if told != again or again in _targets((*head, *inner)) or failed in _targets(inner):
-                return None
-            return ir.Repeat(ir.Unary("not", failed), (*head, replace(last, branches=((failed, tuple(inner)),))))
-    return None
 
 
 def _targets(body: Iterable[ir.Statement]) -> list[ir.Expression]:
