@@ -135,3 +135,30 @@ def test_an_interrupt_keeps_an_error_that_it_finds() -> None:
     leave = trap.body[2]
     assert isinstance(leave, ir.If)
     assert leave.branches[0][1] == (ir.Assign(ir.Name("error_raised"), kept), ir.Return())
+
+
+RETRIED = """MODULE m
+  VAR bool bad:=TRUE;
+  VAR num tries:=0;
+  CONST errnum MINE:=7;
+  PROC mend()
+    bad:=FALSE;
+  ENDPROC
+  PROC main()
+    IF bad RAISE MINE;
+    tries:=tries+1;
+    TPWrite "once";
+  ERROR
+    mend;
+    RETRY;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_variable_of_the_program_does_not_tell_whether_it_is_tried_again() -> None:
+    """What the handler calls may change it."""
+    from there_and_back import there_and_back
+
+    text = there_and_back({"m.mod": RETRIED}, "rapid", "krl").text
+    assert "UNTIL NOT bad" not in text and "MsgNotify" in text
