@@ -18,14 +18,17 @@ _REGISTERS = (ir.Name, ir.Index)
 _STEPS = (ir.Binary, ir.Unary, ir.Call, ir.Convert)
 
 
-@legalising()
+_ACTS_ON = frozenset(("Builtin", "Convert"))
+
+
+@legalising(sees=_ACTS_ON)
 def arguments_in_registers(program: ir.Program, context: Context) -> ir.Program:
     """Functions of what is no register: the value of a constant, a variable for the rest."""
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, Hoister(editor, lambda one: _fitted(one, editor)).body)
+        return edit_bodies(routine, Hoister(editor, lambda one: _fitted(one, editor), _ACTS_ON).body)
 
-    return edit_routines(program, context, work)
+    return edit_routines(program, context, work, _ACTS_ON)
 
 
 def _fitted(expression: ir.Expression, editor: Editor) -> Lowered | None:

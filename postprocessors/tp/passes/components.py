@@ -17,15 +17,18 @@ _ARM = 6  # joints of the arm; further ones are external axes
 _PLACES = (ir.PoseType, ir.TargetType, ir.JointsType)
 
 
-@legalising()
+_ACTS_ON = frozenset(("Field", "system actual_joint"))
+
+
+@legalising(sees=_ACTS_ON)
 def read_components(program: ir.Program, context: Context) -> ir.Program:
     """Components of taught points and of the robot's place, which cannot be read."""
     known = unchanged_in(program)
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, Hoister(editor, lambda one: _read(one, editor, known)).body)
+        return edit_bodies(routine, Hoister(editor, lambda one: _read(one, editor, known), _ACTS_ON).body)
 
-    return edit_routines(program, context, work)
+    return edit_routines(program, context, work, _ACTS_ON)
 
 
 def _read(expression: ir.Expression, editor: Editor, known: Unchanged) -> Lowered | None:

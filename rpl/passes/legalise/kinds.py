@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Set
 from functools import wraps
-from typing import TypeVar, get_args
+from typing import TypeVar, cast, get_args
 
 from rpl import ir
-from rpl.ir.walk import children, is_statement, walk
+from rpl.ir.walk import children, is_expression, is_statement, map_children, walk
 from rpl.passes.legalise.kept import of_node, of_program, shared
 from rpl.passes.rewrite import visit_parts
 
@@ -21,8 +21,10 @@ _DECLARATIONS = (
 
 _WITH_BODIES = (ir.If, ir.Switch, ir.While, ir.For, ir.Repeat, ir.Loop, ir.Spline, ir.Handler)
 _STATEMENTS = frozenset(one.__name__ for one in get_args(ir.Statement))
+_PASSED = frozenset((*get_args(ir.Statement), *_DECLARATIONS))  # entered where they hold what is asked for
 _TELLING = frozenset((ir.Builtin, ir.System, ir.Binary, ir.Unary, ir.Do, ir.Signal, ir.Move, ir.CallRoutine))
 T = TypeVar("T")
+N = TypeVar("N")
 
 
 def kinds_of(node: object) -> tuple[str, ...]:
@@ -103,8 +105,7 @@ def gathering(*kinds: str) -> Callable[[Callable[[ir.Statement], Iterable[T]]], 
 
 
 def _holds_statements(statement: ir.Statement) -> bool:
-    others = _STATEMENTS - {statement.__class__.__name__}
-    return isinstance(statement, _WITH_BODIES) or not others.isdisjoint(kinds_within(statement))
+    return isinstance(statement, _WITH_BODIES) or len(_STATEMENTS & kinds_within(statement)) > 1
 
 
 def _nothing(expression: ir.Expression) -> None:
@@ -137,18 +138,53 @@ def kinds_in_routine(routine: ir.Routine) -> frozenset[str]:
     return shared(frozenset(found))
 
 
+def holds_none(node: object, kinds: Set[str]) -> bool:
+    """Is it a routine, a declaration or a statement without any of these kinds? Everything that is passed by is asked
+    here. No kinds: they are not known, and nothing is passed by."""
+    if not kinds:
+        return False
+    if isinstance(node, ir.Routine):
+        return kinds.isdisjoint(kinds_in_routine(node))
+    return node.__class__ in _PASSED and kinds.isdisjoint(kinds_within(node))
+
+
 def walk_for(kinds: Set[str], *roots: object) -> Iterator[object]:
-    """As `walk`, but past routines, declarations and statements that hold none of these kinds."""
+    """The nodes of these kinds in the order of `walk`. What holds none of them is passed by: routines, declarations,
+    statements, and where only statements are asked for all expressions."""
+    plain = _STATEMENTS.issuperset(kinds)
     stack = [node for root in reversed(roots) for node in (reversed(root) if isinstance(root, tuple) else (root,))]
     while stack:
         node = stack.pop()
-        if isinstance(node, ir.Routine):
-            if kinds.isdisjoint(kinds_in_routine(node)):
-                continue
-        elif (is_statement(node) or isinstance(node, _DECLARATIONS)) and kinds.isdisjoint(kinds_within(node)):
+        kind = node.__class__
+        if holds_none(node, kinds):
             continue
-        yield node
+        if kind.__name__ in kinds or (kind in _TELLING and not kinds.isdisjoint(kinds_of(node))):
+            yield node
+        if plain and (is_expression(node) or (is_statement(node) and not _holds_statements(node))):
+            continue
         stack += reversed(children(node))
 
 
-__all__ = ["gathering", "kinds_in", "kinds_in_routine", "kinds_of", "kinds_within", "move_kinds", "walk_for"]
+def rewrite_for(kinds: Set[str], node: N, change: Callable[[object], object]) -> N:
+    """As `ir.walk.rewrite`, for a change that acts on nodes of these kinds only: routines, declarations and statements
+    that hold none of them are not entered and stay as they are."""
+
+    def rewritten(one: object) -> object:
+        if holds_none(one, kinds):
+            return one
+        return change(map_children(one, rewritten))
+
+    return cast(N, rewritten(node))
+
+
+__all__ = [
+    "gathering",
+    "holds_none",
+    "kinds_in",
+    "kinds_in_routine",
+    "kinds_of",
+    "kinds_within",
+    "move_kinds",
+    "rewrite_for",
+    "walk_for",
+]

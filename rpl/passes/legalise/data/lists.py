@@ -18,19 +18,24 @@ from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.stages import legalising
 
+# What may take a list: a call, a function, an element, a comparison.
+_ACTS_ON = frozenset(("CallRoutine", "Call", "Index", "Builtin", "operator =", "operator <>"))
 
-@legalising()
+
+@legalising(sees=_ACTS_ON)
 def lists_in_variables(program: ir.Program, context: Context) -> ir.Program:
     """The program with lists only where they are stored, or where the target takes them as arguments."""
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Lists(editor).body)
 
-    return edit_routines(program, context, work)
+    return edit_routines(program, context, work, _ACTS_ON)
 
 
 class _Lists(Hoister):
     """`wanted`: types of lists in the expressions at hand that have to be stored, by the identity of their nodes."""
+
+    acts_on = _ACTS_ON
 
     def __init__(self, editor: Editor) -> None:
         super().__init__(editor, lambda _: None)

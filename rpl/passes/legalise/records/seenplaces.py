@@ -20,9 +20,10 @@ from rpl.passes.rewrite import rewrite_parts
 
 _INTO_JOINTS = frozenset(("target_to_joints", "target_to_joints_near", "is_reachable"))
 _SEEN = frozenset(("current_target", "current_position", "joints_to_target"))
+_ACTS_ON = frozenset(f"function {one}" for one in PLACES)
 
 
-@legalising(unless=lambda context: PlaceRule.IN_BASE not in context.capabilities.places.rules)
+@legalising(unless=lambda context: PlaceRule.IN_BASE not in context.capabilities.places.rules, sees=_ACTS_ON)
 def seen_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that say so."""
     return _Seen(program, context).program()
@@ -33,7 +34,8 @@ def seen_places(program: ir.Program, context: Context) -> ir.Program:
         PlaceRule.IN_BASE in context.capabilities.places.rules
         or Composite.RECORDS in context.capabilities.data.composites
         or "ToolType" in context.capabilities.types
-    )
+    ),
+    sees=_ACTS_ON,
 )
 def posed_places(program: ir.Program, context: Context) -> ir.Program:
     """Tool and work object data in such functions as poses, for targets without records."""
@@ -41,6 +43,8 @@ def posed_places(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Seen(Rewriter):
+    acts_on = _ACTS_ON
+
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         self.assigned = set(usage_of(program).assigned)

@@ -9,7 +9,7 @@ rewritten in the order of the program.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Set
 from dataclasses import replace
 from typing import TypeVar
 
@@ -28,9 +28,11 @@ _LVALUES = (ir.Name, ir.Index, ir.Field, ir.System, ir.Signal)
 
 
 class Bodies(ABC):
-    """`editor`: where the rewriting is just now."""
+    """`editor`: where the rewriting is just now. `acts_on`: the kinds of nodes (`kinds_of`) that the pass acts on; a
+    statement that holds none of them is not entered. Empty: any."""
 
     editor: Editor
+    acts_on: Set[str] = frozenset()
 
     # ---- what a pass says
 
@@ -69,7 +71,7 @@ class Bodies(ABC):
     # ---- statements
 
     def body(self, body: ir.Body) -> ir.Body:
-        return map_body(body, self.placed)
+        return map_body(body, self.placed, self.acts_on)
 
     def placed(self, statement: ir.Statement) -> ir.Body:
         """The statement with what had to be hoisted in front of it."""
@@ -172,9 +174,10 @@ class Bodies(ABC):
 class Hoister(Bodies):
     """Applies a rule to every expression of a body, bottom up."""
 
-    def __init__(self, editor: Editor, rule: Rule) -> None:
+    def __init__(self, editor: Editor, rule: Rule, acts_on: Set[str] = frozenset()) -> None:
         self.editor = editor
         self.rule = rule
+        self.acts_on = acts_on or self.acts_on
 
     # ---- expressions
 

@@ -1,14 +1,19 @@
-"""Rewriting one routine at a time, in all of its bodies, with temporaries and their types."""
+"""Rewriting one routine at a time, in all of its bodies, with temporaries and their types.
+
+What rewrites says which kinds of nodes it acts on (`acts_on`, as `kinds_of` names them; empty: any). A routine or a
+statement that holds none of them is left as it is and not entered.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects
+from rpl.passes.legalise.kinds import holds_none
 from rpl.passes.rewrite import changed
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import counter_type, type_of
@@ -57,7 +62,10 @@ class Editor:
 
 
 def edit_routines(
-    program: ir.Program, context: Context, work: Callable[[Editor, ir.Routine], ir.Routine]
+    program: ir.Program,
+    context: Context,
+    work: Callable[[Editor, ir.Routine], ir.Routine],
+    acts_on: Set[str] = frozenset(),
 ) -> ir.Program:
     """The program with each routine rewritten by `work`; temporaries are declared in the routine."""
     scopes = ProgramScope(program)
@@ -67,7 +75,7 @@ def edit_routines(
         editor = Editor(context, effects, scopes.routine(module, routine))
         return editor.closed(work(editor, routine))
 
-    return edit_each(program, edited)
+    return edit_each(program, edited, acts_on)
 
 
 def edit_bodies(routine: ir.Routine, on_body: Callable[[ir.Body], ir.Body]) -> ir.Routine:
@@ -78,15 +86,21 @@ def edit_bodies(routine: ir.Routine, on_body: Callable[[ir.Body], ir.Body]) -> i
     return changed(routine, body=body, handlers=handlers, undo=undo, backward=backward)
 
 
-def edit_all(program: ir.Program, on_body: Callable[[ir.Body], ir.Body]) -> ir.Program:
+def edit_all(program: ir.Program, on_body: Callable[[ir.Body], ir.Body], acts_on: Set[str] = frozenset()) -> ir.Program:
     """The program with each body of each routine rewritten; the same object when nothing changed."""
-    return edit_each(program, lambda module, routine: edit_bodies(routine, on_body))
+    return edit_each(program, lambda module, routine: edit_bodies(routine, on_body), acts_on)
 
 
-def edit_each(program: ir.Program, work: Callable[[ir.Module, ir.Routine], ir.Routine]) -> ir.Program:
+def edit_each(
+    program: ir.Program, work: Callable[[ir.Module, ir.Routine], ir.Routine], acts_on: Set[str] = frozenset()
+) -> ir.Program:
     """The program with each routine rewritten; the same object when nothing changed."""
+
+    def edited(module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        return routine if holds_none(routine, acts_on) else work(module, routine)
+
     modules = tuple(
-        [changed(one, routines=tuple([work(one, routine) for routine in one.routines])) for one in program.modules]
+        [changed(one, routines=tuple([edited(one, each) for each in one.routines])) for one in program.modules]
     )
     return changed(program, modules=modules)
 
@@ -104,11 +118,14 @@ def expansion(origin: Origin, statements: Sequence[ir.Statement]) -> ir.Body:
     return tuple(done)
 
 
-def map_body(body: ir.Body, change: Callable[[ir.Statement], ir.Body]) -> ir.Body:
+def map_body(body: ir.Body, change: Callable[[ir.Statement], ir.Body], acts_on: Set[str] = frozenset()) -> ir.Body:
     """The body with each statement replaced by what `change` gives; the same object when nothing changed."""
     done: list[ir.Statement] = []
     same = True
     for statement in body:
+        if holds_none(statement, acts_on):
+            done.append(statement)
+            continue
         new = change(statement)
         same = same and len(new) == 1 and new[0] is statement
         done.extend(new)

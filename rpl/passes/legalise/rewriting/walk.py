@@ -16,6 +16,7 @@ from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.beginning import settled_at_start
 from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.legalise.kinds import holds_none
 from rpl.passes.legalise.rewriting.bodies import Bodies, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies
 from rpl.passes.rewrite import changed, rewrite_parts, same
@@ -124,16 +125,24 @@ class Rewriter(Bodies):
 
     def module(self, module: ir.Module) -> ir.Module:
         self.enter(self.scopes.module(module))
-        declarations = [new for old in module.declarations for new in self.declaration(old)]
+        declarations = [new for old in module.declarations for new in self.each_declaration(old)]
         declarations.extend(replace(one, scope="module") for one in self.editor.added)
         routines = tuple(self.routine(module, routine) for routine in module.routines)
         return changed(module, declarations=tuple(declarations), routines=routines)
 
+    def each_declaration(self, declaration: ir.Declaration) -> Sequence[ir.Declaration]:
+        """A declaration in its new form; one that holds nothing that the pass acts on is not entered."""
+        if holds_none(declaration, self.acts_on):
+            return (declaration,)
+        return self.declaration(declaration)
+
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        if holds_none(routine, self.acts_on):
+            return routine
         self.enter(self.scopes.routine(module, routine))
         done = changed(
             routine,
-            declarations=tuple([new for old in routine.declarations for new in self.declaration(old)]),
+            declarations=tuple([new for old in routine.declarations for new in self.each_declaration(old)]),
             parameters=tuple([changed(one, type=self.type(one.type)) for one in routine.parameters]),
             returns=None if routine.returns is None else self.type(routine.returns),
             handlers=tuple([changed(one, codes=tuple(map(self.expression, one.codes))) for one in routine.handlers]),

@@ -44,7 +44,7 @@ _PARTS = {
 
 
 def _tools(program: ir.Program) -> Iterator[ir.Expression]:
-    for node in walk_for({"system tool"}, *program.modules):
+    for node in walk_for({"Assign"}, *program.modules):
         if isinstance(node, ir.Assign) and node.target == ir.System("tool"):
             yield node.value
 

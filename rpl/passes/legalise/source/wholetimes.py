@@ -9,19 +9,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import rewrite_for
 from rpl.passes.legalise.stages import legalising
 
 _ORDER = frozenset(("<", "<=", ">", ">="))
 _TIMES = frozenset(("timer", "time"))
+_ACTS_ON = frozenset(("Magnitude",))
 
 
-@legalising(unless=lambda context: context.capabilities.carries_rules, sees=("Binary",))
+@legalising(unless=lambda context: context.capabilities.carries_rules, sees=_ACTS_ON)
 def whole_times(program: ir.Program, context: Context) -> ir.Program:
     """For all targets but the one that says everything as it is."""
-    modules = tuple(rewrite(module, _changed) for module in program.modules)
-    return replace(program, modules=modules) if modules != program.modules else program
+    return rewrite_for(_ACTS_ON, program, _changed)
 
 
 def _changed(node: object) -> object:

@@ -15,6 +15,7 @@ from rpl.passes.capabilities import RoutineRule, TextRule
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, is_constant
+from rpl.passes.legalise.kinds import holds_none
 from rpl.passes.legalise.rewriting import scanning
 from rpl.passes.legalise.rewriting.bodies import Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
@@ -23,6 +24,7 @@ from rpl.passes.legalise.rewriting.textparts import PUT
 from rpl.passes.legalise.routines.results import text_results
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.statements.texts import TextHoister
+from rpl.passes.rewrite import changed
 from rpl.passes.scope import ProgramScope
 
 _LONGEST_PRODUCT = 4
@@ -44,6 +46,7 @@ _HELPER_FUNCTIONS = {
     "bit_shift_left": "rpl_shift_left",
     "bit_shift_right": "rpl_shift_right",
 }
+_ACTS_ON = frozenset(("Index", "CallRoutine", "Do", "Builtin", "Binary", "operator bnot", "Convert"))
 
 
 @legalising()
@@ -63,19 +66,19 @@ def rewrite_calls(program: ir.Program, context: Context) -> ir.Program:
         editor = Editor(context, effects, scopes.module(module))
         rewriter = _Calls(editor, helpers)
         declarations = tuple(
-            replace(one, initial=rewriter.flat(one.initial))
-            if isinstance(one, ir.Variable) and one.initial is not None
+            changed(one, initial=rewriter.flat(one.initial))
+            if isinstance(one, ir.Variable) and one.initial is not None and not holds_none(one, _ACTS_ON)
             else one
             for one in module.declarations
         )
-        same = all(new == old for new, old in zip(declarations, module.declarations, strict=True))
-        modules.append(module if same else replace(module, declarations=declarations))
-    if any(new is not old for new, old in zip(modules, program.modules, strict=True)):
-        program = replace(program, modules=tuple(modules))
-    return helpers.added_to(edit_routines(program, context, work))
+        modules.append(changed(module, declarations=declarations))
+    program = changed(program, modules=tuple(modules))
+    return helpers.added_to(edit_routines(program, context, work, _ACTS_ON))
 
 
 class _Calls(TextHoister):
+    acts_on = _ACTS_ON
+
     def __init__(self, editor: Editor, helpers: Library) -> None:
         super().__init__(editor, self.ruled, helpers)
         self.capabilities = editor.capabilities

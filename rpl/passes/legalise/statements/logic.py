@@ -18,12 +18,15 @@ _STRICT = {"cand": "and", "cor": "or"}
 _EARLY = {"and": "cand", "or": "cor"}
 
 
-@legalising()
+_ACTS_ON = frozenset(f"operator {one}" for one in ("and", "or", "cand", "cor"))
+
+
+@legalising(sees=_ACTS_ON)
 def decide_logic(program: ir.Program, context: Context) -> ir.Program:
     """The program with the logical operators that the target has, meaning the same."""
     if context.capabilities.control.short_circuit:
-        return edit_routines(program, context, _early)
-    return edit_routines(program, context, _strict)
+        return edit_routines(program, context, _early, _ACTS_ON)
+    return edit_routines(program, context, _strict, _ACTS_ON)
 
 
 def _early(editor: Editor, routine: ir.Routine) -> ir.Routine:
@@ -51,6 +54,8 @@ def _early(editor: Editor, routine: ir.Routine) -> ir.Routine:
 
 class _Ordered(Hoister):
     """The left side of a strict operator is evaluated before the right side even where that is hoisted."""
+
+    acts_on = _ACTS_ON
 
     def lower(self, expression: ir.Expression, lvalue: bool = False) -> Lowered:
         match expression:
@@ -84,6 +89,8 @@ def _strict(editor: Editor, routine: ir.Routine) -> ir.Routine:
 
 class _Chains(Hoister):
     """`a cand b` as the whole condition of an If without further branches is two nested Ifs, as people write it."""
+
+    acts_on = _ACTS_ON
 
     def choice(self, statement: ir.If) -> ir.Body:
         match statement:

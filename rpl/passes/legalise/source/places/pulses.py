@@ -10,14 +10,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rpl import ir
-from rpl.ir.walk import rewrite
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Arm, Context
 from rpl.passes.legalise.facts.pulsecounts import EXTERNAL, count_of, report_assumed
+from rpl.passes.legalise.kinds import rewrite_for
 from rpl.passes.legalise.stages import legalising
 
+_FUNCTIONS = ("joints_from_pulses", "joint_pulses", "external_from_pulses", "with_external")
+_ACTS_ON = frozenset(f"function {one}" for one in _FUNCTIONS)
 
-@legalising()
+
+@legalising(sees=_ACTS_ON)
 def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
     """The program without pulses, as far as the arm is known."""
     each = context.robot.pulse_scale if context.robot is not None else None
@@ -25,7 +28,7 @@ def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
     if context.robot is not None:
         report_assumed(program, context.robot, context.diagnostics)
     arm = context.robot
-    return rewrite(program, lambda node: _folded(node, ratios, arm))
+    return rewrite_for(_ACTS_ON, program, lambda node: _folded(node, ratios, arm))
 
 
 def _folded(node: object, ratios: Sequence[float] | None, arm: Arm | None) -> object:

@@ -11,9 +11,9 @@ import math
 from dataclasses import dataclass
 
 from rpl import ir
-from rpl.ir.walk import rewrite
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import rewrite_for
 from rpl.passes.legalise.rewriting.formulas import number
 from rpl.passes.legalise.rewriting.library import Library
 from rpl.passes.legalise.source.places.zyzangles import ZYZ_PARTS, zyz_pose
@@ -27,11 +27,14 @@ _MADE = frozenset(
 _SMALL = 1e-9
 
 
-@legalising()
+_ACTS_ON = frozenset(("Quantity", "Magnitude", "Builtin"))
+
+
+@legalising(sees=_ACTS_ON)
 def rotation_vectors(program: ir.Program, context: Context) -> ir.Program:
     """The program without them, as far as the target lacks them."""
     worker = _Worker(context, Library(context, ("geometry",)))
-    done = rewrite(program, worker.changed)
+    done = rewrite_for(_ACTS_ON, program, worker.changed)
     task = done.modules[0].task if done.modules else ""
     return worker.library.added_to(done, task)
 

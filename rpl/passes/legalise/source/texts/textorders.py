@@ -12,12 +12,13 @@ from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
 _ORDERS = frozenset(("<", "<=", ">", ">="))
+_ACTS_ON = frozenset(f"operator {one}" for one in _ORDERS)
 _HELPER = "rpl_text_order"
 
 
 @legalising(
     unless=lambda context: TextRule.ORDER in context.capabilities.texts.rules or context.capabilities.carries_rules,
-    sees=[f"operator {one}" for one in _ORDERS],
+    sees=_ACTS_ON,
 )
 def text_orders(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose operators do not order texts."""
@@ -26,6 +27,8 @@ def text_orders(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Orders(Rewriter):
+    acts_on = _ACTS_ON
+
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         self.helpers = common_library(context)
