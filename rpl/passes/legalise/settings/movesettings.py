@@ -18,17 +18,16 @@ from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.facts.settingsinforce import SETTINGS, SettingsInForce, State
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.shadows import Shadow, only_served
 from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
 from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
 from rpl.passes.legalise.settings.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
-from rpl.passes.legalise.settings.servedsettings import only_served
 from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts
 
 _WORLD = ir.System("null_frame")
-_TYPES: dict[str, ir.Type] = {"tool": ir.PoseType(), "base": ir.PoseType()}
 # Settings that such a target has no word for, so that they cannot stay modal either.
 # What targets with coordinated moves say at a move.
 _AT_MOVES = (COORDINATED, "external_speed", REMOTE)
@@ -61,7 +60,7 @@ class _Settings:
     context: Context
     flow: SettingsInForce = field(init=False)
     here: State = field(default_factory=dict)
-    variables: dict[str, str] = field(default_factory=dict)
+    variables: dict[str, Shadow] = field(default_factory=dict)
     reported: set[tuple[Code, str]] = field(default_factory=set)
     told: bool = False  # does the program set different tools, or is none ever in force?
     accelerations: Accelerations = field(init=False)
@@ -90,24 +89,21 @@ class _Settings:
         program = replace(self.source, modules=modules)
         if not self.variables:
             return program
-        data = tuple(self.declared(name, variable) for name, variable in self.variables.items())
-        home = ir.Module(self.context.fresh("rpl_settings"), program.modules[0].dialect, data, public=True)
+        data = [shadow.variable for shadow in self.variables.values()]
+        home = ir.Module(self.context.fresh("rpl_settings"), program.modules[0].dialect, tuple(data), public=True)
         program = replace(program, modules=(*program.modules, home))
-        return only_served(program, self.variables.values())
+        return only_served(program, [one.name for one in data])
 
     def modules(self) -> tuple[ir.Module, ...]:
         return edit_all(self.source, self.body).modules
 
-    def declared(self, name: str, variable: str) -> ir.Variable:
-        initial = self.flow.start.get(name)
-        type = _TYPES.get(name, ir.RealType())
-        value = ir.System("null_frame") if isinstance(type, ir.PoseType) else _number(initial, 0.0)
-        return ir.Variable(variable, type, value, scope="global")
-
     def variable(self, name: str) -> ir.Name:
         if name not in self.variables:
-            self.variables[name] = self.context.fresh(f"rpl_{name}")
-        return ir.Name(self.variables[name])
+            initial = self.flow.start.get(name)
+            first = initial if isinstance(initial, ir.RealLiteral | ir.IntLiteral) else ir.RealLiteral(0.0)
+            variable = ir.Name(self.context.fresh(f"rpl_{name}"))
+            self.variables[name] = Shadow(variable, _WORLD if name in ("tool", "base") else first)
+        return self.variables[name].name
 
     # ---- statements
 
@@ -310,10 +306,6 @@ def _modal(blend: ir.Blend | None) -> bool:
         case ir.BlendPercent(percent=ir.System()) | ir.BlendSpeed(percent=ir.System()):
             return True
     return False
-
-
-def _number(value: ir.Expression | None, other: float) -> ir.Expression:
-    return value if isinstance(value, ir.RealLiteral | ir.IntLiteral) else ir.RealLiteral(other)
 
 
 def plain(value: ir.Expression) -> ir.Expression:

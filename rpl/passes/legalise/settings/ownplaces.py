@@ -14,14 +14,12 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
-from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.rewriting.shadows import NO_SHIFT, Shadow, with_shadows
 from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
-
-_NOWHERE = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in ir.POSE), "pose")
 
 # Solvers that a move may have around its goal (`configurations`): the move says with which tool.
 _GOALS = ("target_to_joints", "target_to_joints_near")
@@ -66,25 +64,11 @@ class _Places:
     ) -> None:
         self.context, self.moving, self.set, self.questions = context, moving, set, questions
         self.flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
-        self.names: dict[str, str] = {}
+        self.kept: dict[str, Shadow] = {}
 
     def done(self, program: ir.Program) -> ir.Program:
-        program = self.rewritten(program, self.statement)
-        if not self.names:
-            return program
-        added = [ir.Variable(name, ir.PoseType(), initial=_NOWHERE, scope="global") for name in self.names.values()]
-        return with_support(self.rewritten(program, self.kept), self.context, added, (), program.modules[0].task)
-
-    def rewritten(self, program: ir.Program, change: object) -> ir.Program:
-        assert callable(change)
-        modules = tuple(
-            replace(
-                module,
-                routines=tuple(edit_bodies(one, lambda body: map_body(body, change)) for one in module.routines),
-            )
-            for module in program.modules
-        )
-        return replace(program, modules=modules)
+        program = edit_all(program, lambda body: map_body(body, self.statement))
+        return with_shadows(program, self.context, self.kept, read=False)
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         state = self.flow.at(statement)
@@ -103,16 +87,6 @@ class _Places:
         frame = self.value("base", state) if done.frame is None and "base" in self.moving else done.frame
         return (done if tool is done.tool and frame is done.frame else replace(done, tool=tool, frame=frame),)
 
-    def kept(self, statement: ir.Statement) -> ir.Body:
-        """A setting, with the variable that stands for it."""
-        done = inside(statement, lambda body: map_body(body, self.kept))
-        match done:
-            case ir.Assign(target=ir.System(name=name), value=value) if name in self.names:
-                copy = ir.Assign(ir.Name(self.names[name]), value, origin=done.origin)
-                later = replace(done.origin, comments=())
-                return (copy, replace(done, value=ir.Name(self.names[name]), origin=later))
-        return (done,)
-
     def value(self, name: str, state: dict[str, ir.Expression | None]) -> ir.Expression:
         """The tool or frame that is set there."""
         if name not in self.set:
@@ -120,9 +94,9 @@ class _Places:
         known = state.get(name)
         if known is not None:
             return known
-        if name not in self.names:
-            self.names[name] = self.context.fresh(f"{name}_set")
-        return ir.Name(self.names[name])
+        if name not in self.kept:
+            self.kept[name] = Shadow(ir.Name(self.context.fresh(f"{name}_set")), NO_SHIFT)
+        return self.kept[name].name
 
     def goal(self, goal: ir.Expression, state: dict[str, ir.Expression | None]) -> ir.Expression:
         """The goal of a move: joints that are asked for there are those with the move's own tool and frame."""

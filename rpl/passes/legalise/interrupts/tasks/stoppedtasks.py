@@ -6,21 +6,16 @@ Only for tasks that leave the robot alone and wait in their own routine.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.interrupts.tasks.background import leaving_at, waits
 from rpl.passes.legalise.rewriting.beside import closure
-from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
-from rpl.passes.legalise.rewriting.jumps import inside, left_with
-from rpl.passes.legalise.rewriting.support import with_support
+from rpl.passes.legalise.rewriting.editing import edit_each
+from rpl.passes.legalise.rewriting.taskflags import TaskFlag, called_too, controlled, flag_of, with_task_flags
 from rpl.passes.legalise.stages import legalising
-from rpl.source import NOWHERE
 
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.WaitForMotion, ir.StopMotion, ir.StartMotion, ir.ClearMotion)
-_TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 
 @legalising(
@@ -33,36 +28,23 @@ _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 )
 def stopped_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks can be started and not stopped."""
-    names = _stopped(program)
-    if not names:
-        return program
-    worker = _Stopped({name: (context.fresh(f"{name}_runs"), context.fresh(f"{name}_stop")) for name in sorted(names)})
+    flags = {
+        name: TaskFlag(flag_of(name, context), ends=ir.Name(context.fresh(f"{name}_stop")))
+        for name in sorted(_stopped(program))
+    }
 
-    def routine(one: ir.Routine) -> ir.Routine:
-        flags = worker.flags.get(one.name.lower())
-        if flags is not None:
-            runs, stop = flags
-            one = leaving_at(
-                left_with(one, (_set(runs, _FALSE),)), ir.Name(stop), context, (_set(runs, _FALSE), ir.Return())
-            )
-        return edit_bodies(one, lambda body: map_body(body, worker.statement))
+    def routine(_: ir.Module, one: ir.Routine) -> ir.Routine:
+        flag = flags.get(one.name.lower())
+        return one if flag is None or flag.ends is None else leaving_at(one, flag.ends, context, (ir.Return(),))
 
-    modules = tuple(replace(module, routines=tuple(map(routine, module.routines))) for module in program.modules)
-    data = [
-        ir.Variable(name, ir.BoolType(), _FALSE, scope="global") for flags in worker.flags.values() for name in flags
-    ]
-    return with_support(replace(program, modules=modules), context, data, (), modules[0].task)
+    return with_task_flags(edit_each(program, routine) if flags else program, context, flags)
 
 
 def _stopped(program: ir.Program) -> set[str]:
     """Tasks (folded) that are ended from outside and can do so by themselves."""
-    controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]
-    asked = {one.task.lower() for one in controls if one.op == "stop"} & {
-        one.task.lower() for one in controls if one.op == "start"
-    }
-    asked -= {one.task.lower() for one in controls if one.op in ("pause", "resume")}
-    asked -= {node.name.lower() for node in walk(*program.modules) if isinstance(node, ir.CallRoutine | ir.Call)}
-    asked -= closure(program, _MOTION)
+    asked = controlled(program, ("stop",)) & controlled(program, ("start",))
+    asked -= controlled(program, ("pause", "resume"))
+    asked -= called_too(program) | closure(program, _MOTION)
     routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
     waiting = {name for name, routine in routines.items() if waits(routine)}
     alone = set()
@@ -72,27 +54,6 @@ def _stopped(program: ir.Program) -> set[str]:
         if name in waiting and not reached and routines[name].returns is None:
             alone.add(name)
     return alone
-
-
-def _set(name: str, value: ir.Expression) -> ir.Assign:
-    return ir.Assign(ir.Name(name), value)
-
-
-@dataclass(slots=True)
-class _Stopped:
-    """`flags`: task -> the flags that say that it runs, and that it is to end."""
-
-    flags: dict[str, tuple[str, str]] = field(default_factory=dict)
-
-    def statement(self, statement: ir.Statement) -> ir.Body:
-        match statement:
-            case ir.TaskControl(op="start" | "stop" as op, task=name) if name.lower() in self.flags:
-                runs, stop = self.flags[name.lower()]
-                if op == "start":
-                    return expansion(statement.origin, (_set(stop, _FALSE), _set(runs, _TRUE), statement))
-                ended = ir.WaitUntil(ir.Unary("not", ir.Name(runs)), origin=NOWHERE)
-                return (ir.If(((ir.Name(runs), (_set(stop, _TRUE), ended)),), origin=statement.origin),)
-        return (inside(statement, lambda body: map_body(body, self.statement)),)
 
 
 __all__ = ["stopped_tasks"]
