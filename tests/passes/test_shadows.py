@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rpl import ir
-from rpl.passes.legalise.settings.servedsettings import only_served
+from rpl.passes.legalise.rewriting.shadows import only_served
 
 SPEED = ir.Name("speed")
 
