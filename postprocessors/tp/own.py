@@ -1,12 +1,14 @@
 """What only programs read from listings hold: the controller's tables of frames, its wait limit, its alarms.
 
-One TP instruction means two neutral statements there (a number is stored and the frame behind it comes into force);
-here the two are found again.
+One TP instruction means several neutral statements there (a number is stored and the frame behind it comes into force);
+here it is told what these are (`passes/instructions.py` puts them together).
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from typing import NamedTuple
 
 from rpl import ir
 from rpl.source import Origin
@@ -45,6 +47,50 @@ def table_change(statement: ir.Statement, following: ir.Statement | None) -> tup
                 (value,) = value.arguments
             return place, value
     return None
+
+
+class Counted(NamedTuple):
+    """A FOR: does it count down, how far, and what stands in it."""
+
+    down: bool
+    stop: ir.Expression
+    body: ir.Body
+
+
+def counted_loop(statement: ir.Statement, following: ir.Statement | None) -> Counted | None:
+    """A FOR whose counter is an element of the register array: the first value, and a loop that compares and counts."""
+    match statement, following:
+        case (
+            ir.Assign(target=ir.Index() as counter),
+            ir.While(
+                condition=ir.Binary(op="<=" | ">=" as within, left=left, right=stop),
+                body=(*inner, ir.If() as leave, ir.Assign(target=target) as step),
+            ),
+        ):
+            down = within == ">="
+            wanted = ir.If(((ir.Binary("<=" if down else ">=", counter, stop), (ir.ExitLoop(),)),))
+            next_one = ir.Binary("-" if down else "+", counter, ir.IntLiteral(1))
+            if left == counter == target and leave == wanted and _same(step.value, next_one):
+                return Counted(down, stop, tuple(inner))
+    return None
+
+
+def _same(value: ir.Expression, wanted: ir.Binary) -> bool:
+    """The step; normalising may have widened its one."""
+    match value:
+        case ir.Binary(op=op, left=left, right=right):
+            one = without_trunc(right) in (ir.IntLiteral(1), ir.RealLiteral(1.0))
+            return op == wanted.op and left == wanted.left and one
+    return False
+
+
+def parts_apart(body: ir.Body) -> Iterator[ir.Statement]:
+    """The statements of a body; those that are put together as one instruction one by one."""
+    for statement in body:
+        if isinstance(statement, ir.Instruction):
+            yield from statement.parts
+        else:
+            yield statement
 
 
 def alarm_number(statement: ir.Statement) -> str | None:
@@ -92,14 +138,12 @@ def modal_condition(origin: Origin) -> str:
     return text if _CONDITION.match(text) else ""
 
 
-def modal_choice(statement: ir.Statement) -> ir.Statement | None:
-    """The first of the moves that a listing's move became, one for each condition that can be in force there."""
+def is_modal_choice(statement: ir.Statement) -> bool:
+    """Is it what a listing's move became, one for each condition that can be in force there?"""
     match statement:
-        case ir.If(branches=((ir.Binary("=", ir.Name(id=word), ir.IntLiteral()), (move,)), *_), otherwise=(_,)) if (
-            word.upper() in MODAL and from_listing(statement.origin)
-        ):
-            return move
-    return None
+        case ir.If(branches=((ir.Binary("=", ir.Name(id=word), ir.IntLiteral()), (_,)), *_), otherwise=(_,)):
+            return word.upper() in MODAL and from_listing(statement.origin)
+    return False
 
 
 def is_modal_mark(statement: ir.Statement) -> bool:

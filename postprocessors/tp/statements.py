@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import dropwhile
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
@@ -17,11 +18,19 @@ from .assignments import Assignments, set_output
 from .expressions import ACTIVE, Expressions, constant, measured
 from .flow import If, Labels, choice
 from .frames import Frames
-from .idioms import Idioms
+from .instructions import Instructions
 from .lines import Line, pulse_length
 from .motion import Motion
 from .moverows import write_rows
-from .own import from_listing, is_own_limit, leaves_frames, modal_condition, number_in_force, selects_frame
+from .own import (
+    from_listing,
+    is_own_limit,
+    leaves_frames,
+    modal_condition,
+    number_in_force,
+    parts_apart,
+    selects_frame,
+)
 from .positions import Points
 from .texts import ascii_text, number, remarks
 
@@ -74,7 +83,7 @@ class Printer(StatementPrinter[Line]):
             second=frames.second,
         )
         self.assignments = Assignments(expressions, points, frames.scratch, frames.moved_to)
-        self.idioms = Idioms(self)
+        self.instructions = Instructions(self)
 
     # ---- lines and comments
 
@@ -99,12 +108,11 @@ class Printer(StatementPrinter[Line]):
     # ---- bodies
 
     def body(self, body: ir.Body) -> None:
-        at = 0
-        while at < len(body):
-            taken = self.idioms.take(body[at:])
-            if not taken:
-                self.statement(body[at])
-            at += taken or 1
+        for statement in body:
+            if isinstance(statement, ir.Instruction):
+                self.instructions.write(statement)
+            else:
+                self.statement(statement)
 
     def inner(self, body: ir.Body) -> None:
         """A body inside of a block."""
@@ -124,8 +132,8 @@ class Printer(StatementPrinter[Line]):
 
     def begin(self, body: ir.Body) -> None:
         """The body of the program itself."""
-        head = next((at for at, one in enumerate(body) if any(isinstance(n, _JUMPS) for n in walk(one))), len(body))
-        self.at_jumps = self.may_select(body[head:])
+        jumping = dropwhile(lambda one: not any(isinstance(node, _JUMPS) for node in walk(one)), parts_apart(body))
+        self.at_jumps = self.may_select(tuple(jumping))
         self.body(body)
 
     def selects(self, node: object) -> bool:
@@ -285,15 +293,11 @@ class Printer(StatementPrinter[Line]):
 
     def action(self, action: ir.Assign | ir.CallRoutine) -> str:
         """What a trigger does."""
-        self.ledger_action(action)
         if isinstance(action, ir.CallRoutine):
             return self.call(action).rstrip()
         if isinstance(action.target, ir.Signal):
             return set_output(action.target, action.value, self.expressions)
         raise CannotSayError("an action on the path is a call or an output")
-
-    def ledger_action(self, action: ir.Assign | ir.CallRoutine) -> None:
-        """Actions are part of their trigger, which the ledger does not look into."""
 
     # ---- blocks
 

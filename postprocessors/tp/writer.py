@@ -206,7 +206,7 @@ class _Writer:
                     named.update((f"{stem}{number}", printer.points.place(number)) for number in numbers)
                     self.ledger.written(declaration)
                     return
-                case ir.Variable(name=name) if _is_bank(name) or name.startswith("for_bound_"):
+                case ir.Variable(name=name) if _is_bank(name):
                     self.ledger.merged(declaration)
                     return
                 case ir.Unread(text=""):

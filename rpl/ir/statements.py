@@ -395,6 +395,17 @@ class OnError:
     origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
 
+@dataclass(frozen=True, slots=True)
+class Instruction:
+    """Several statements that are one instruction of the controller that a program is written for. Only a pass right
+    in front of that target's writer makes it; RPL has no word for it. `text`: the instruction where it is known there,
+    or empty; the writer puts it together then from the parts. Each part is accounted for by itself."""
+
+    text: str
+    parts: Body
+    origin: Origin = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
 Statement = (
     Assign
     | CallRoutine
@@ -437,6 +448,7 @@ Statement = (
     | Meet
     | SetForNextMove
     | OnError
+    | Instruction
     | Vendor
     | Opaque
     | Nothing

@@ -31,6 +31,8 @@ def blocks(node: ir.Statement | ir.Handler) -> tuple[ir.Body, ...]:
             return (body,)
         case ir.Spline(body=body):
             return (body,)
+        case ir.Instruction(parts=parts):
+            return (parts,)
         case ir.Move(triggers=triggers):
             return (tuple(trigger for trigger in triggers if isinstance(trigger, ir.Trigger)),)
         case _:

@@ -7,7 +7,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.entries import started_first
 from rpl.passes.legalise.facts.usage import doing
 
-from ..own import selects_frame
+from ..own import parts_apart, selects_frame
 
 
 def entries_of(program: ir.Program) -> set[str]:
@@ -34,7 +34,7 @@ def monitors_of(program: ir.Program) -> dict[int, tuple[str, int]]:
         for routine in module.routines[:1]:
             numbers = [
                 statement.priority.value
-                for statement in routine.body
+                for statement in parts_apart(routine.body)
                 if isinstance(statement, ir.DeclareInterrupt) and isinstance(statement.priority, ir.IntLiteral)
             ]
             if numbers:

@@ -11,6 +11,7 @@ from .composition import compositions
 from .exactends import exact_ends
 from .filledplaces import filled_places
 from .framenumbers import frame_numbers
+from .instructions import single_instructions
 from .joinedtexts import joined_texts
 from .limitedwaits import limited_waits
 from .longlogic import long_logic
@@ -35,4 +36,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(zero_places, "storage", before="unread_flags"),
     Placed(limited_waits, "storage", before="unread_flags"),
 )
-LAST = (exact_ends,)
+LAST = (exact_ends, single_instructions)
