@@ -20,6 +20,7 @@ from rpl.passes.analog import analog_ranges
 from rpl.passes.expanded import expanded
 from rpl.passes.given import with_given
 from rpl.passes.legalise import Context, legalise
+from rpl.passes.legalise.kept import keeping
 from rpl.passes.legality import report, unguarded
 from rpl.passes.stretches import check_rows, settled, with_stretches
 from rpl.project import ReadProgram
@@ -170,6 +171,7 @@ def _by_stretches(
             return translated(expanded(program), ())
 
 
+@keeping()
 def _translated(
     whole: ir.Program,
     context: Context,

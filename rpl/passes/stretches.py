@@ -31,6 +31,7 @@ from rpl.ir.columns import KEPT, Choice, ColumnNumber, LooksInsideError, Stretch
 from rpl.ir.rows import Cells, Rows
 from rpl.ir.runs import Make, always, identical, maker_of
 from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.rewrite import changed, each, rewrite_parts, same
 from rpl.source import Origin
 
@@ -97,7 +98,11 @@ def settled(program: ir.Program, stretches: Collection[Stretch], reports: Iterab
 
 def check_rows(program: ir.Program, reports: Iterable[Diagnostic]) -> None:
     """Raises LooksInsideError where a pass behind `settled` has made numbers of rows anew, or has reported of them."""
-    rows = [one for one in walk(*program.modules) if isinstance(one, ir.Rows | ir.VariableRows)]
+    rows = [
+        one
+        for one in walk_for({"Rows", "VariableRows"}, *program.modules)
+        if isinstance(one, ir.Rows | ir.VariableRows)
+    ]
     for one in rows:
         if not one.cells.standing_in(one.sample):
             raise LooksInsideError(one.cells.stretch)

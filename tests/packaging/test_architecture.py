@@ -1,6 +1,7 @@
 """The rooms of the house: arrows go downwards, no circles, files stay readable, the core knows no vendor."""
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -132,7 +133,7 @@ LANGUAGES = [name for name in MODULES if room_of(name) in ("dialects", "postproc
 
 
 # What the folders of the legaliser hold for all; the others are the insides of single stages.
-FOR_WRITERS = ("facts",)
+FOR_WRITERS = ("facts", "kinds")
 FOR_PASSES = (*FOR_WRITERS, "context", "rewriting", "stages")
 
 
@@ -143,6 +144,25 @@ def test_a_target_uses_no_insides_of_a_stage(name: str) -> None:
     used = {one for one in facts(name).known if one.startswith("rpl.passes.legalise.")}
     inside = {one for one in used if one.split(".")[3] not in open_folders}
     assert not inside
+
+
+# Who has to look at every node of a program: at any name in it, at any aggregate, at what any statement reads.
+WALKS_ALL = {
+    "rpl.passes.legalise.errors.posetables": "every place that may be an element of a table",
+    "rpl.passes.legalise.errors.possiblecases": "every value that a variable or a component may get",
+    "rpl.passes.settable": "every place that any statement sets; asked by the linker too",
+    "rpl.postprocessors.urscript.facts.programs": "every name of anything",
+    "rpl.postprocessors.vplus.facts.names": "every name of anything",
+    "rpl.postprocessors.tp.passes.moveplaces": "every statement that reads a place in the frame in use",
+}
+WHOLE_WALK = re.compile(r"\bwalk\(\*?(self\.)?(program|source)(\.modules)?\)|\bwalk\(\*done\.modules\)")
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if name.startswith(("rpl.passes.", "rpl.postprocessors."))])
+def test_no_pass_walks_the_whole_program_by_itself(name: str) -> None:
+    """`walk_for`, `gathering` and `kinds_in` pass by what holds nothing of the kinds that are asked for."""
+    walks = WHOLE_WALK.search(MODULES[name].read_text("utf-8")) is not None
+    assert walks == (name in WALKS_ALL)
 
 
 @pytest.mark.parametrize("name", CORE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 
 from .. import tables
 from ..operands import numbered
@@ -12,7 +13,7 @@ from ..places import Constants
 
 def counts_joints(program: ir.Program) -> bool:
     """Does the program calculate with the joints of positions, or move them by a way?"""
-    for node in walk(program):
+    for node in walk_for({"Field", "System", "Move", "Builtin"}, program):
         match node:
             case ir.Field(name=name) if name.lower() in tables.JOINT_ELEMENTS:
                 return True

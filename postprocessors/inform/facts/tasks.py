@@ -5,6 +5,7 @@ from __future__ import annotations
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.entries import never_called, started_tasks
+from rpl.passes.legalise.kinds import walk_for
 
 from .. import tables
 
@@ -12,7 +13,7 @@ from .. import tables
 def sub_tasks(program: ir.Program) -> dict[str, str]:
     """Routine, folded -> the sub task that it is started as, as far as there are any."""
     names: dict[str, str] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"TaskControl"}, *program.modules):
         if isinstance(node, ir.TaskControl) and node.op == "start" and len(names) < tables.MOST_SUBTASKS:
             names.setdefault(node.task.lower(), f"SUB{len(names) + 1}")
     return names

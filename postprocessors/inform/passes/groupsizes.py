@@ -6,8 +6,8 @@ Those of another size become groups of these sizes and single signals: sixteen s
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.signalgroups import Group, GroupsInParts, group_of
 from rpl.passes.legalise.stages import legalising
@@ -30,7 +30,11 @@ def groups_in_sizes(program: ir.Program, context: Context) -> ir.Program:
 
 def _odd(program: ir.Program) -> frozenset[Group]:
     """Groups of other sizes, or that do not begin behind a multiple of their size."""
-    found = (group_of(node) for node in walk(*program.modules) if isinstance(node, ir.Signal) and node.last is not None)
+    found = (
+        group_of(node)
+        for node in walk_for({"Signal"}, *program.modules)
+        if isinstance(node, ir.Signal) and node.last is not None
+    )
     return frozenset(one for one in found if one is not None and not _fits(one))
 
 

@@ -29,6 +29,7 @@ from rpl.passes.legalise.facts.framenumbers import (
     said_numbers,
 )
 from rpl.passes.legalise.facts.mentioned import mentioned
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -44,7 +45,7 @@ _DECIMALS = 6  # a REAL of the controller has seven digits
 @legalising(sees=("system tool", "system base"))
 def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Tools and bases that nothing assigns are numbers of the controller's tables."""
-    if tables.CONFIG in context.taken or not any(_selected(node) for node in walk(*program.modules)):
+    if tables.CONFIG in context.taken or not any(_selected(node) for node in walk_for({"Assign"}, *program.modules)):
         return program
     scopes = ProgramScope(program)
     unchanged = unchanged_in(program)
@@ -257,7 +258,7 @@ def _without_noted(program: ir.Program) -> ir.Program:
     and that nothing reads: the element says the number."""
     noted: dict[str, int] = {}
     named: dict[str, int] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"Name", "Routine"}, *program.modules):
         if isinstance(node, ir.Name):
             named[node.id.lower()] = named.get(node.id.lower(), 0) + 1
         elif isinstance(node, ir.Routine):

@@ -7,8 +7,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 _KINDS = ("digital_in", "digital_out")
@@ -18,7 +19,7 @@ _KINDS = ("digital_in", "digital_out")
 def signals_by_name(program: ir.Program, context: Context) -> ir.Program:
     """Only names that the whole program knows, and that stand for one signal alone."""
     names: dict[ir.Signal, str] = {}
-    for one in walk(*program.modules):
+    for one in walk_for({"SignalDeclaration"}, *program.modules):
         if isinstance(one, ir.SignalDeclaration) and one.scope == "global" and one.signal.kind in _KINDS:
             names.setdefault(one.signal, one.name)
 

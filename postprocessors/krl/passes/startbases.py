@@ -10,10 +10,10 @@ from dataclasses import replace
 from itertools import takewhile
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_each
 from rpl.passes.legalise.stages import legalising
 
@@ -23,7 +23,7 @@ _BASE = ir.System("base")
 @legalising()
 def start_bases(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that set no base: the controller has none of its own at the start."""
-    if any(isinstance(node, ir.Assign) and node.target == _BASE for node in walk(*program.modules)):
+    if any(isinstance(node, ir.Assign) and node.target == _BASE for node in walk_for({"Assign"}, *program.modules)):
         return program
     entries = moving_entries(program) & doing(program, _to_a_place)
 

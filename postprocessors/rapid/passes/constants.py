@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir, registry
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed
@@ -26,7 +26,7 @@ def constant_data(program: ir.Program, context: Context) -> ir.Program:
     """Only data of modules that one task has, and that no data list sets besides."""
     unchanged = unchanged_in(program)
     changes = unchanged.assigned | set(unchanged.initialised)
-    changes |= {node.counter.lower() for node in walk(*program.modules) if isinstance(node, ir.For)}
+    changes |= {node.counter.lower() for node in walk_for({"For"}, *program.modules) if isinstance(node, ir.For)}
     changes |= _referred(program)
     tasks = {module.task for module in program.modules}
     target = registry.target(context.source) if context.source in registry.target_names() else None
@@ -56,7 +56,7 @@ def _referred(program: ir.Program) -> set[str]:
                 if one.mode == "reference":
                     found |= {at, one.name.lower()}
     names: set[str | None] = set()
-    for node in walk(*program.modules):
+    for node in walk_for({"Call", "CallRoutine"}, *program.modules):
         if isinstance(node, ir.Call | ir.CallRoutine):
             referred = by_reference.get(node.name.lower(), set())
             for at, argument in enumerate(node.arguments):

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -37,7 +37,7 @@ def places_as_targets(program: ir.Program, context: Context) -> ir.Program:
 
 def _keeps_world(program: ir.Program) -> bool:
     """Is the frame in force the world all the time? Then moves may have frames of their own."""
-    for node in walk(*program.modules):
+    for node in walk_for({"Assign", "Vendor", "Opaque", "Spline", "Move", "System"}, *program.modules):
         match node:
             case ir.Assign(target=ir.System(name="base" | "displacement")) | ir.Vendor() | ir.Opaque() | ir.Spline():
                 return False

@@ -6,6 +6,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.entries import started_first
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.kinds import walk_for
 
 from ..own import parts_apart, selects_frame
 
@@ -74,5 +75,5 @@ def steps_in(body: ir.Body) -> set[str]:
 
 def coordinates(program: ir.Program) -> bool:
     """Is any move led by the second motion group?"""
-    moves = (node for node in walk(*program.modules) if isinstance(node, ir.Move))
+    moves = (node for node in walk_for({"Move"}, *program.modules) if isinstance(node, ir.Move))
     return any(place == ir.System("coordinated") for move in moves for place, _ in move.settings)

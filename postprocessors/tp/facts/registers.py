@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Bank
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.writing.statements import CannotSayError
 
@@ -53,7 +54,7 @@ def free_numbers(program: ir.Program, names: Mapping[tuple[str, int], str], bank
     """Numbers of a bank that no statement and no name (of data that is chosen at run time) has, from the top; those
     behind it where it is full, as for a program that needs a larger bank."""
     used = {number for kind, number in names if kind == bank.name}
-    for node in walk(program):
+    for node in walk_for({"Index", "Name", "For", "Variable"}, program):
         match node:
             case ir.Index(base=ir.Name(id=name), indices=(ir.IntLiteral(value=number),)) if name.upper() == bank.name:
                 used.add(number)

@@ -5,7 +5,7 @@ to the same place. An element, a sum or a frame of it would be another value; TP
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 
 from .. import tables
 
@@ -17,7 +17,7 @@ def moved_to_only(program: ir.Program) -> frozenset[int]:
     parts: set[int] = set()
     seen: set[int] = set()
     copies: dict[int, set[int]] = {}
-    for node in walk(program):
+    for node in walk_for({"Index", "Name", "Assign", "Field", "Builtin", "Binary", "Move"}, program):
         match node:
             case ir.Index(base=ir.Name(id="PR"), indices=(index,)) if not isinstance(index, ir.IntLiteral):
                 return frozenset()

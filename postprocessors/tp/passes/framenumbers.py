@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.framenumbers import Table, is_none, key_of, names_in, tables_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, in_frame
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -34,7 +35,7 @@ _HARMLESS = (ir.Nothing, ir.Wait, ir.WaitUntil, ir.Message, ir.Clock, ir.Assign)
 @legalising(sees=("system tool", "system base"))
 def frame_numbers(program: ir.Program, context: Context) -> ir.Program:
     """Tools and frames that nothing assigns are numbers of the controller's tables."""
-    if not any(map(_selected, walk(*program.modules))):
+    if not any(map(_selected, walk_for({"Assign"}, *program.modules))):
         return program
     scopes = ProgramScope(program)
     unchanged = unchanged_in(program)

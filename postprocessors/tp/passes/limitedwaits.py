@@ -6,8 +6,8 @@ from collections import Counter
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -18,7 +18,7 @@ from ..tables import TIMED_OUT
 @legalising(sees=("WaitUntil",))
 def limited_waits(program: ir.Program, context: Context) -> ir.Program:
     """A wait with a limit and the choice behind it are one jump, where nothing else reads the flag."""
-    named = Counter(node.id.lower() for node in walk(*program.modules) if isinstance(node, ir.Name))
+    named = Counter(node.id.lower() for node in walk_for({"Name"}, *program.modules) if isinstance(node, ir.Name))
 
     def written(body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []

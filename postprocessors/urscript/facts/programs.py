@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 
 
 def programs(program: ir.Program) -> list[ir.Routine]:
@@ -69,7 +70,11 @@ def _like_its_file(module: ir.Module, routine: ir.Routine) -> bool:
 
 def started(program: ir.Program) -> set[str]:
     """Routines that are started as tasks, folded."""
-    return {node.task.lower() for node in walk(program) if isinstance(node, ir.TaskControl) and node.op == "start"}
+    return {
+        node.task.lower()
+        for node in walk_for({"TaskControl"}, program)
+        if isinstance(node, ir.TaskControl) and node.op == "start"
+    }
 
 
 def names_of(program: ir.Program) -> set[str]:

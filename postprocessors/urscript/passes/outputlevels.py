@@ -6,7 +6,8 @@ Such a level is written as the plain call; where no program says it, the share o
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
+from rpl.passes.legalise.kinds import walk_for
 from rpl.writing.target import WriteContext
 
 _SAYS = "set_analog_outputdomain("
@@ -14,7 +15,11 @@ _SAYS = "set_analog_outputdomain("
 
 def output_levels(program: ir.Program, context: WriteContext) -> ir.Program:
     """The program with levels of outputs as the controller's own values."""
-    said = (node.text for node in walk(program) if isinstance(node, ir.Vendor) and node.dialect == "urscript")
+    said = (
+        node.text
+        for node in walk_for({"Vendor"}, program)
+        if isinstance(node, ir.Vendor) and node.dialect == "urscript"
+    )
     if not any(text.startswith(_SAYS) for text in said):
         return program
     return rewrite(program, _level)

@@ -15,11 +15,11 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.controllers import controller_named
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.cornersizes import written_size
 from rpl.passes.legalise.facts.moveorder import Pair, pairs_of
 from rpl.passes.legalise.facts.ways import Ways, between
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.library import Library, common_library
@@ -54,7 +54,7 @@ _TOLD = 0.999  # what is not made smaller than by this share is a matter of roun
 @legalising(sees=("Move",))
 def parted_corners(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that leave out moves. Behind what gives each move its corner."""
-    if not any(isinstance(node, ir.Move) and _rounds(node) for node in walk(program.modules)):
+    if not any(isinstance(node, ir.Move) and _rounds(node) for node in walk_for({"Move"}, program.modules)):
         return program
     pairs = [one for one in pairs_of(program) if _rounds(one.first) or _rounds(one.second)]
     if not pairs:

@@ -9,10 +9,11 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.cornerways import Ways
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 
@@ -26,7 +27,11 @@ STOPS_BEFORE = code(
 @legalising(sees=("TaskControl",))
 def stand_before_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Tasks drive single moves."""
-    starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"]
+    starts = [
+        node
+        for node in walk_for({"TaskControl"}, *program.modules)
+        if isinstance(node, ir.TaskControl) and node.op == "start"
+    ]
     if not starts:
         return program
     moving = doing(program, lambda node: isinstance(node, ir.Move | ir.MoveExternal | ir.Spline))

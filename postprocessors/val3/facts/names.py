@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 
 
 def names_of(program: ir.Program, locals: bool = True) -> set[str]:
@@ -15,5 +15,5 @@ def names_of(program: ir.Program, locals: bool = True) -> set[str]:
             found.add(routine.name)
             found.update(parameter.name for parameter in routine.parameters)
             found.update(str(getattr(one, "name", "")) for one in routine.declarations if locals)
-    found.update(node.name or "" for node in walk(*program.modules) if isinstance(node, ir.Signal))
+    found.update(node.name or "" for node in walk_for({"Signal"}, *program.modules) if isinstance(node, ir.Signal))
     return found

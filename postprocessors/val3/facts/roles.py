@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 
 from ..expressions import NULL, root_of
 
@@ -11,7 +11,7 @@ from ..expressions import NULL, root_of
 def roles_of(program: ir.Program) -> dict[str, str]:
     """Variables of poses that are tools or frames of movements."""
     found: dict[str, str] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"Move", "Builtin"}, *program.modules):
         pairs: list[tuple[ir.Expression | None, str]] = []
         match node:
             case ir.Move(tool=tool, frame=frame):
@@ -29,7 +29,7 @@ def roles_of(program: ir.Program) -> dict[str, str]:
 def fathers_of(program: ir.Program, roles: dict[str, str]) -> dict[str, str]:
     """Points of the application's data that all movements use in one frame; they hang on it."""
     used: dict[str, set[str]] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"Move", "CallRoutine", "TaskControl"}, *program.modules):
         match node:
             case ir.Move(target=target, via=via, frame=frame):
                 father = "world" if frame is None or frame == NULL else _named_frame(frame, roles)
@@ -67,8 +67,8 @@ def entry_of(program: ir.Program) -> str:
     if program.entry:
         return program.entry
     routines = [routine.name for module in program.modules for routine in module.routines]
-    called = {node.name for node in walk(*program.modules) if isinstance(node, ir.CallRoutine)}
-    started = {node.task for node in walk(*program.modules) if isinstance(node, ir.TaskControl)}
+    called = {node.name for node in walk_for({"CallRoutine"}, *program.modules) if isinstance(node, ir.CallRoutine)}
+    started = {node.task for node in walk_for({"TaskControl"}, *program.modules) if isinstance(node, ir.TaskControl)}
     started |= {task.entry for task in program.tasks if task.kind == "background"}
     free = [name for name in routines if name not in called | started]
     return next((name for name in free if name.lower() == "main"), free[0] if free else "")

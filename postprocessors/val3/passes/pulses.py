@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -21,7 +21,7 @@ def pulses_as_tasks(program: ir.Program, context: Context) -> ir.Program:
     """A task in the place of each pulse of constant length to a constant level."""
     taken = {routine.name for module in program.modules for routine in module.routines}
     made: dict[ir.Pulse, str] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"Pulse"}, *program.modules):
         if isinstance(node, ir.Pulse) and _is_plain(node) and node not in made:
             number = len(made) + 1
             while f"pulse{number}" in taken:

@@ -9,8 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 _CLOCK = ir.System("time")
@@ -19,7 +20,7 @@ _CLOCK = ir.System("time")
 @legalising(sees=("system timer", "system timer_stopped"))
 def timers_by_the_clock(program: ir.Program, context: Context) -> ir.Program:
     """Numbered timers, by the clock of the controller."""
-    numbers = {number for node in walk(*program.modules) if (number := _number(node)) is not None}
+    numbers = {number for node in walk_for({"system timer"}, *program.modules) if (number := _number(node)) is not None}
     names = {number: context.fresh(f"timer{number}") for number in sorted(numbers)}
 
     def change(node: object) -> object:

@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.ir.walk import children, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -60,7 +61,11 @@ def _moving(routines: dict[str, ir.Routine]) -> frozenset[str]:
 
 def _watched(program: ir.Program) -> frozenset[str]:
     """Variables that more than one task knows: to set one is seen outside."""
-    started = {node.task for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"}
+    started = {
+        node.task
+        for node in walk_for({"TaskControl"}, *program.modules)
+        if isinstance(node, ir.TaskControl) and node.op == "start"
+    }
     started |= {task.entry for task in program.tasks if task.kind == "background"}
     names: set[str] = set()
     for module in program.modules:

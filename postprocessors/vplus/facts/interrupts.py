@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +19,7 @@ class Interrupts:
     def of(cls, program: ir.Program) -> Interrupts:
         declared: dict[str, list[ir.DeclareInterrupt]] = {}
         flags: set[int] = set()
-        for node in walk(program):
+        for node in walk_for({"DeclareInterrupt", "Signal", "System"}, program):
             if isinstance(node, ir.DeclareInterrupt):
                 declared.setdefault(_key(node), []).append(node)
             elif (number := _flag(node)) is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.passes.legalise.kinds import walk_for
 
 from .. import tables
 
@@ -11,5 +11,5 @@ from .. import tables
 def tasks_of(program: ir.Program) -> dict[str, int]:
     """A number for each program that is executed beside the main one."""
     names = [task.entry.lower() for task in program.tasks if task.kind == "background"]
-    names += [node.task.lower() for node in walk(program) if isinstance(node, ir.TaskControl)]
+    names += [node.task.lower() for node in walk_for({"TaskControl"}, program) if isinstance(node, ir.TaskControl)]
     return {name: number for number, name in enumerate(dict.fromkeys(names), 1) if number <= tables.TASKS}

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
@@ -32,7 +32,7 @@ _PRIORITIES = (*range(9, 0, -1), *range(40, 128))
 )
 def reaction_searches(program: ir.Program, context: Context) -> ir.Program:
     """There are no search moves, but interrupts that drop a move."""
-    if not any(isinstance(one, ir.Move) and one.search is not None for one in walk(*program.modules)):
+    if not any(isinstance(one, ir.Move) and one.search is not None for one in walk_for({"Move"}, *program.modules)):
         return program
     worker = _Searches(context)
     done = edit_routines(program, context, worker.routine)

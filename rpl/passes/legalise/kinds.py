@@ -19,7 +19,7 @@ _DECLARATIONS = (
     *(ir.SignalDeclaration, ir.ExternalDeclaration, ir.Initialise),
 )
 
-_WITH_BODIES = (ir.If, ir.Switch, ir.While, ir.For, ir.Repeat, ir.Loop, ir.Spline, ir.Handler)
+_WITH_BODIES = frozenset((ir.If, ir.Switch, ir.While, ir.For, ir.Repeat, ir.Loop, ir.Spline, ir.Handler))
 _STATEMENTS = frozenset(one.__name__ for one in get_args(ir.Statement))
 _PASSED = frozenset((*get_args(ir.Statement), *_DECLARATIONS))  # entered where they hold what is asked for
 _TELLING = frozenset((ir.Builtin, ir.System, ir.Binary, ir.Unary, ir.Do, ir.Signal, ir.Move, ir.CallRoutine))
@@ -64,7 +64,7 @@ def move_kinds(move: ir.Move) -> Iterator[str]:
 def kinds_within(node: object) -> frozenset[str]:
     """The kinds of a node and of all below it; the statements in blocks are asked for theirs."""
     found: set[str] = set()
-    if not isinstance(node, _WITH_BODIES):
+    if node.__class__ not in _WITH_BODIES:
         for one in walk(node):
             if one.__class__ in _TELLING:
                 found.update(kinds_of(one))
@@ -104,8 +104,10 @@ def gathering(*kinds: str) -> Callable[[Callable[[ir.Statement], Iterable[T]]], 
     return made
 
 
-def _holds_statements(statement: ir.Statement) -> bool:
-    return isinstance(statement, _WITH_BODIES) or len(_STATEMENTS & kinds_within(statement)) > 1
+def _holds_statements(statement: object) -> bool:
+    return statement.__class__ in _WITH_BODIES or len(_STATEMENTS & kinds_within(statement)) > (
+        statement.__class__.__name__ in _STATEMENTS
+    )
 
 
 def _nothing(expression: ir.Expression) -> None:
@@ -151,18 +153,27 @@ def holds_none(node: object, kinds: Set[str]) -> bool:
 def walk_for(kinds: Set[str], *roots: object) -> Iterator[object]:
     """The nodes of these kinds in the order of `walk`. What holds none of them is passed by: routines, declarations,
     statements, and where only statements are asked for all expressions."""
-    plain = _STATEMENTS.issuperset(kinds)
+    plain, telling = _STATEMENTS.issuperset(kinds), any(" " in one for one in kinds)
+
+    def is_one(node: object) -> bool:
+        kind = node.__class__
+        return kind.__name__ in kinds or (telling and kind in _TELLING and not kinds.isdisjoint(kinds_of(node)))
+
     stack = [node for root in reversed(roots) for node in (reversed(root) if isinstance(root, tuple) else (root,))]
     while stack:
         node = stack.pop()
         kind = node.__class__
-        if holds_none(node, kinds):
+        if holds_none(node, kinds) or (plain and is_expression(node)):
             continue
-        if kind.__name__ in kinds or (kind in _TELLING and not kinds.isdisjoint(kinds_of(node))):
+        if kind in _WITH_BODIES or not (is_expression(node) or kind in _PASSED):
+            stack += reversed(children(node))
+        elif not plain:
+            yield from filter(is_one, walk(node))
+            continue
+        elif _holds_statements(node):
+            stack += reversed(children(node))
+        if is_one(node):
             yield node
-        if plain and (is_expression(node) or (is_statement(node) and not _holds_statements(node))):
-            continue
-        stack += reversed(children(node))
 
 
 def rewrite_for(kinds: Set[str], node: N, change: Callable[[object], object]) -> N:

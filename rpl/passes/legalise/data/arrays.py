@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
@@ -50,7 +50,7 @@ def _from_zero(program: ir.Program) -> set[str]:
                         found[declaration.name.lower()] = 0
     if not found:
         return set()
-    for node in walk(*program.modules):
+    for node in walk_for({"Variable", "Parameter", "Name", "Index"}, *program.modules):
         match node:
             case ir.Variable(name=name) | ir.Parameter(name=name) if name.lower() in found:
                 found[name.lower()] += 1  # one declaration only

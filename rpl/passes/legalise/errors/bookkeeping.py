@@ -9,11 +9,11 @@ from collections import Counter
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.facts.mentioned import is_linked, mentioned
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.support import SUPPORT
 from rpl.passes.legalise.stages import legalising
@@ -42,7 +42,7 @@ def _idle(program: ir.Program, context: Context) -> frozenset[str]:
         if isinstance(one, ir.Variable)
     ]
     mentions, places = Counter[str](), Counter[str]()
-    for node in walk(*program.modules):
+    for node in walk_for({"Name", "For", "Assign", "Move", "Spline", "Variable", "Parameter"}, *program.modules):
         match node:
             case ir.Name(id=name):
                 mentions[name.lower()] += 1

@@ -11,6 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import called_below
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 
@@ -31,7 +32,11 @@ _PLACES = {
 def interrupt_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such system variables, whose programs can have interrupts."""
     has = context.capabilities.system_variables
-    asked = {node.name for node in walk(program) if isinstance(node, ir.System) and node.name in _PLACES.keys() - has}
+    asked = {
+        node.name
+        for node in walk_for({"System"}, program)
+        if isinstance(node, ir.System) and node.name in _PLACES.keys() - has
+    }
     handlers = _handlers(program)
     if not asked or not handlers:
         return program
@@ -63,7 +68,7 @@ def interrupt_places(program: ir.Program, context: Context) -> ir.Program:
 def _handlers(program: ir.Program) -> set[str]:
     """Routines that an interrupt calls, folded."""
     found: set[str] = set()
-    for node in walk(*program.modules):
+    for node in walk_for({"DeclareInterrupt", "ConnectInterrupt"}, *program.modules):
         match node:
             case ir.DeclareInterrupt(action=ir.CallRoutine(name=name)) | ir.ConnectInterrupt(routine=name):
                 found.add(name.lower())

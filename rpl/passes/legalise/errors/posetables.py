@@ -20,6 +20,7 @@ from rpl.passes.capabilities import MoveSetting, Settings
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.framenumbers import Element, element_of, said_numbers
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.unused import without_unused
 from rpl.passes.scope import ProgramScope
@@ -66,7 +67,7 @@ def _named(settings: Settings) -> bool:
 def _kinds(program: ir.Program) -> dict[Element, str]:
     """What elements of tables are set as, tool or base."""
     found: dict[Element, str] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"Assign", "Move"}, *program.modules):
         given: tuple[tuple[ir.Expression | None, str], ...] = ()
         match node:
             case ir.Assign(target=ir.System(name=name), value=value) if name in _STEMS:
@@ -156,7 +157,7 @@ class _Tables:
     def unread(self) -> set[str]:
         """Numbers in force beside the tables (UFRAME_NUM) that the program only sets, to a plain number."""
         used, noted = Counter[str](), Counter[str]()
-        for node in walk(*self.source.modules):
+        for node in walk_for({"Name", "Assign"}, *self.source.modules):
             match node:
                 case ir.Name(id=name):
                     used[name.lower()] += 1

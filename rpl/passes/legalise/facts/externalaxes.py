@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.fold import constant
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.scope import Scope
 
 _UNUSED = 9e8  # an external axis that a target does not use stands at 9E9
@@ -22,7 +22,7 @@ def is_unused(value: ir.Expression, scope: Scope) -> bool:
 def used_externals(program: ir.Program) -> int:
     """How many external axes places of the program move: up to the last that one sends away from zero."""
     last = 0
-    for node in walk(*program.modules):
+    for node in walk_for({"Aggregate"}, *program.modules):
         for name, value in node.entries if isinstance(node, ir.Aggregate) else ():
             if name in _NAMES and not is_nothing(value):
                 last = max(last, AXES.index(name) + 1)
@@ -45,11 +45,11 @@ def is_nothing(value: ir.Expression) -> bool:
 def has_external_axes(program: ir.Program) -> bool:
     """Does the program look at a single external axis, move one, or give a target a place for one?"""
     cleared: set[int] = set()  # components that are only said to be unused
-    for node in walk(*program.modules):
+    for node in walk_for({"Assign"}, *program.modules):
         match node:
             case ir.Assign(target=target, value=ir.RealLiteral(value=set_to)) if abs(set_to) >= _UNUSED:
                 cleared.add(id(target))
-    for node in walk(*program.modules):
+    for node in walk_for({"MoveExternal", "Field", "Aggregate"}, *program.modules):
         match node:
             case ir.MoveExternal():
                 return True

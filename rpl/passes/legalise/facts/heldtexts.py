@@ -32,7 +32,7 @@ class HeldTexts:
     def of(program: ir.Program) -> HeldTexts:
         found: dict[str, set[str]] = {}
         unknown: set[str] = set()
-        for node in walk(*program.modules):
+        for node in walk_for({"Assign", "Variable", "Parameter"}, *program.modules):
             match node:
                 case ir.Assign(target=ir.Name(id=name), value=ir.TextLiteral(value=text)):
                     found.setdefault(name.lower(), set()).add(text)

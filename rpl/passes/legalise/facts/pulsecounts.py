@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Arm
+from rpl.passes.legalise.kinds import walk_for
 from rpl.source import NOWHERE, Origin
 
 PULSES_ASSUMED = code(
@@ -32,7 +32,9 @@ def report_assumed(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> N
     """Say it once where a program in pulses is for an arm whose own controller counts none."""
     if arm.pulses_per_degree is not None or arm.pulse_scale is None:
         return
-    counted = (node for node in walk(program) if isinstance(node, ir.Builtin) and node.function in _COUNTING)
+    counted = (
+        node for node in walk_for({"Builtin"}, program) if isinstance(node, ir.Builtin) and node.function in _COUNTING
+    )
     first = next(counted, None)
     if first is not None:
         assumed(arm, diagnostics, first.origin)
@@ -41,7 +43,7 @@ def report_assumed(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> N
 def report_stations(program: ir.Program, arm: Arm, diagnostics: Diagnostics) -> None:
     """Say once which external axes a run takes in pulses as if they were degrees or mm. `arm`: with all mechanisms."""
     told: set[int] = set()
-    for node in walk(program):
+    for node in walk_for({"function external_from_pulses"}, program):
         if not isinstance(node, ir.Builtin) or node.function != "external_from_pulses":
             continue
         given = node.arguments[0]

@@ -12,10 +12,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import BRAKING, State
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.settings.modal import DROPPED
 
 GIVEN = code(
@@ -39,7 +39,7 @@ class Accelerations:
         self.active = context.foreign and says and MoveSetting.SPEED in context.capabilities.settings.of_moves
         self.set = {
             node.target.name
-            for node in (walk(*program.modules) if self.active else ())
+            for node in (walk_for({"Assign"}, *program.modules) if self.active else ())
             if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)
         }
         theirs = rules_of(context.target).system_defaults

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import InterruptRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.reach import Armed, armed_statements
 from rpl.passes.legalise.facts.usage import called_below
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.records.watching import key_of, number_of
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -44,7 +44,7 @@ def braked_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose interrupts stop the robot and drop the move, with no word that lets it go on."""
     routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
     refused: list[ir.DeclareInterrupt] = []
-    for node in walk(*program.modules):
+    for node in walk_for({"DeclareInterrupt"}, *program.modules):
         if isinstance(node, ir.DeclareInterrupt) and isinstance(node.action, ir.CallRoutine):
             below = called_below(program, {node.action.name.lower()})
             if any(_holds(routines[name]) for name in below if name in routines) and _drives(program, key_of(node)):
@@ -65,7 +65,10 @@ def braked_moves(program: ir.Program, context: Context) -> ir.Program:
 def _drives(program: ir.Program, key: int | None) -> bool:
     """Is the robot driven while the interrupt may come?"""
     on = frozenset[int]() if key is None else armed_statements(program, Armed(key))
-    return key is None or any(isinstance(node, _DRIVEN) and id(node) in on for node in walk(*program.modules))
+    return key is None or any(
+        isinstance(node, _DRIVEN) and id(node) in on
+        for node in walk_for({"Move", "MoveExternal", "Spline"}, *program.modules)
+    )
 
 
 def _holds(routine: ir.Routine) -> bool:

@@ -10,9 +10,9 @@ from functools import partial
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.rewrite import rewrite_parts
@@ -30,11 +30,14 @@ _PLAIN = ir.BoolType | ir.IntType | ir.RealType
 
 def watched_changes(program: ir.Program, context: Context) -> ir.Program:
     """The program whose interrupts come with a condition that becomes true (or with time)."""
-    if not any(isinstance(node, ir.OrderInterrupt) and node.event == "change" for node in walk(*program.modules)):
+    if not any(
+        isinstance(node, ir.OrderInterrupt) and node.event == "change"
+        for node in walk_for({"OrderInterrupt"}, *program.modules)
+    ):
         return program
     scopes = ProgramScope(program)
     done = _Changes(context)
-    for node in walk(*program.modules):
+    for node in walk_for({"ConnectInterrupt"}, *program.modules):
         if isinstance(node, ir.ConnectInterrupt) and (handle := base_name(node.handle)):
             done.traps.setdefault(handle, set()).add(node.routine.lower())
     ordered = edit_each(program, lambda module, one: edit_bodies(one, partial(done.body, scopes.routine(module, one))))

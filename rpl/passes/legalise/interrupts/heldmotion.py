@@ -14,6 +14,7 @@ from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import called_below
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.beside import closure, does_any
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -42,7 +43,11 @@ _LEAVING = (ir.Return, ir.Goto, ir.Raise, ir.Retry, ir.TryNext, ir.ResumeLevel, 
 )
 def held_motion(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that cannot start the motion again by a word of their own, and whose brake does not drop it."""
-    traps = {one.routine.lower() for one in walk(*program.modules) if isinstance(one, ir.ConnectInterrupt)}
+    traps = {
+        one.routine.lower()
+        for one in walk_for({"ConnectInterrupt"}, *program.modules)
+        if isinstance(one, ir.ConnectInterrupt)
+    }
     below, timed = called_below(program, traps), closure(program, _TIME)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:

@@ -14,6 +14,7 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.refusedactions import without_actions
@@ -108,7 +109,9 @@ def one_meaning_each(program: ir.Program, context: Context) -> ir.Program:
     if not refused:
         return program
     connected = [
-        node for node in walk(*program.modules) if isinstance(node, ir.ConnectInterrupt) and _name(node) in refused
+        node
+        for node in walk_for({"ConnectInterrupt"}, *program.modules)
+        if isinstance(node, ir.ConnectInterrupt) and _name(node) in refused
     ]
 
     def change(statement: ir.Statement) -> ir.Body:
@@ -133,7 +136,7 @@ def _refused(program: ir.Program, context: Context) -> dict[str, Code]:
     }
     routines: dict[str, set[str]] = {}
     ways: dict[str, list[object]] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"ConnectInterrupt", "OrderInterrupt"}, *program.modules):
         match node:
             case ir.ConnectInterrupt(routine=routine) if name := _name(node):
                 routines.setdefault(name, set()).add(routine.lower())

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import Watched
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.records.watching import number_of
 from rpl.passes.legalise.rewriting.beside import closure
 from rpl.passes.legalise.stages import legalising
@@ -34,7 +34,7 @@ _TAKES_TIME = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Move, ir.Spline, ir.D
 )
 def nested_interrupts(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose interrupts do not interrupt each other. The program stays as it is."""
-    declared = [one for one in walk(program) if isinstance(one, ir.DeclareInterrupt)]
+    declared = [one for one in walk_for({"DeclareInterrupt"}, program) if isinstance(one, ir.DeclareInterrupt)]
     slow = closure(program, _TAKES_TIME) if len(declared) > 1 else frozenset()
     for other in declared:
         rank, name = number_of(other.priority), _called(other)

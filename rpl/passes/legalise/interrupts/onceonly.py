@@ -10,10 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import called_names, exposed
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.source import Origin
@@ -48,7 +49,7 @@ def _as_target_has_it(program: ir.Program, context: Context) -> ir.Program:
         or {"DeclareInterrupt", "ConnectInterrupt"} & can.statements
     ):
         return program
-    found = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
+    found = [one for one in walk_for({"DeclareInterrupt"}, *program.modules) if isinstance(one, ir.DeclareInterrupt)]
     wanted = {
         one
         for one in found
@@ -113,7 +114,9 @@ class _Once:
                 serving.setdefault(name, set()).add(_number(one) if same else None)
         actions = [id(one.action) for one in self.found]
         elsewhere = set[str]()
-        for node in walk(*self.program.modules):
+        for node in walk_for(
+            {"CallRoutine", "Call", "TaskControl", "OnError", "ConnectInterrupt"}, *self.program.modules
+        ):
             match node:
                 case ir.CallRoutine(name=name) | ir.Call(name=name) if id(node) not in actions:
                     elsewhere.add(name.lower())

@@ -11,10 +11,10 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import called_names, exposed
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.records.watching import key_of, number_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -52,7 +52,7 @@ _FIRST_PRIORITY = 10  # as passes.interrupts numbers them
 def reactions(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with interrupts, and programs that give theirs an identity."""
     can = context.capabilities
-    declared = [one for one in walk(*program.modules) if isinstance(one, ir.DeclareInterrupt)]
+    declared = [one for one in walk_for({"DeclareInterrupt"}, *program.modules) if isinstance(one, ir.DeclareInterrupt)]
     drops = InterruptRule.STOPPING not in context.capabilities.interrupts.rules
     switched = InterruptRule.ONE_SHOT not in can.interrupts.rules
     if not any(one.identity is not None or (one.once and switched) or (one.stops and drops) for one in declared):
@@ -95,7 +95,7 @@ class _Reactions:
             self.urgency[_FIRST_PRIORITY + place] = urgency[identity]
 
     def masks(self, program: ir.Program) -> None:
-        for node in walk(*program.modules):
+        for node in walk_for({"ControlInterrupt"}, *program.modules):
             if isinstance(node, ir.ControlInterrupt) and node.op == "mask":
                 self.partial = self.partial or 0 < len(self.waiting(node)) < len(self.urgency)
 

@@ -7,9 +7,9 @@ is used become bits.
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.signalgroups import Group, GroupsAsBits, GroupsInParts, group_of, is_computed
 from rpl.passes.legalise.stages import legalising
@@ -34,7 +34,9 @@ def shared_groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
     named = bool(io.signal_prefixes)
     apart = _overlapping(program) if named else frozenset()
     lacking = named or GroupRule.COMPUTED not in io.groups
-    computed = lacking and any(isinstance(node, ir.Signal) and is_computed(node) for node in walk(*program.modules))
+    computed = lacking and any(
+        isinstance(node, ir.Signal) and is_computed(node) for node in walk_for({"Signal"}, *program.modules)
+    )
     if not apart and not computed:
         return program
 
@@ -48,7 +50,7 @@ def _overlapping(program: ir.Program) -> frozenset[Group]:
     """Groups that have a signal in common with other signals of the program."""
     used: set[Group] = set()
     anywhere: set[str] = set()
-    for node in walk(*program.modules):
+    for node in walk_for({"Signal"}, *program.modules):
         if isinstance(node, ir.Signal):
             group = group_of(node)
             if group is not None:

@@ -11,8 +11,9 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 COMPUTED = code(
@@ -28,7 +29,11 @@ _REACH = 32
 def flags_as_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without flags, or with fewer than are named, and for programs that compute the number of one."""
     can = context.capabilities
-    numbers = [number for node in walk(*program.modules) if (number := _number(node)) is not None]
+    numbers = [
+        number
+        for node in walk_for({"signal flag", "system flag"}, *program.modules)
+        if (number := _number(node)) is not None
+    ]
     largest = max((number.value for number in numbers if isinstance(number, ir.IntLiteral)), default=0)
     if can.io.last_flag is None or (can.io.last_flag and can.io.last_flag >= largest):
         return program

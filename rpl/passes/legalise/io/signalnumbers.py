@@ -11,7 +11,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import is_expression, rewrite, walk
+from rpl.ir.walk import is_expression, rewrite
+from rpl.passes.legalise.kinds import walk_for
 
 # By folded name of the routine: folded names and places (from 0) of the parameters that became numbers.
 Places = Mapping[str, frozenset[str | int]]
@@ -49,7 +50,9 @@ def numbers_as_arguments(program: ir.Program, places: Places) -> ir.Program:
     if not places:
         return program
     declared = {
-        node.name.lower(): node.signal for node in walk(*program.modules) if isinstance(node, ir.SignalDeclaration)
+        node.name.lower(): node.signal
+        for node in walk_for({"SignalDeclaration"}, *program.modules)
+        if isinstance(node, ir.SignalDeclaration)
     }
 
     def passed(node: object) -> object:

@@ -19,6 +19,7 @@ from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.io.groupwidths import TOO_NARROW, WIDTH, group_widths
 from rpl.passes.legalise.io.signalnumbers import numbers_as_arguments, parameters_as_numbers
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -399,7 +400,7 @@ def _named_and_numbered(
             name = known(node)
             if name is not None:
                 names.setdefault((node.kind, name.lower()), name)
-    for node in walk(*program.modules):
+    for node in walk_for({"Signal"}, *program.modules):
         if isinstance(node, ir.Signal) and isinstance(node.index, ir.IntLiteral) and known(node) is None:
             last = node.last.value if isinstance(node.last, ir.IntLiteral) else node.index.value
             bits = node.kind if node.last is None and not alone else _bits(node.kind)

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -42,8 +42,15 @@ def speed_shares(program: ir.Program, context: Context) -> ir.Program:
     names = frozenset((_LIMIT,) if "override" in can.system_variables else (_LIMIT, _SHARE))
     assigned = [one for one in _assignments(program) if one.target.name in names]
     targets = {id(one.target) for one in assigned}
-    asked = any(isinstance(one, ir.System) and one.name in names and id(one) not in targets for one in walk(program))
-    if not assigned or asked or any(isinstance(one, ir.Move) and not _by_profile(one) for one in walk(program)):
+    asked = any(
+        isinstance(one, ir.System) and one.name in names and id(one) not in targets
+        for one in walk_for({"System"}, program)
+    )
+    if (
+        not assigned
+        or asked
+        or any(isinstance(one, ir.Move) and not _by_profile(one) for one in walk_for({"Move"}, program))
+    ):
         return program
     defaults = dict(rules_of(context.source).system_defaults)
     worker = _Shares(context, SettingsInForce.of(program, defaults), names, float(defaults.get(_LIMIT, 0.0) or 0.0))
@@ -61,7 +68,7 @@ class _Setting:
 
 
 def _assignments(program: ir.Program) -> Iterator[_Setting]:
-    for one in walk(program):
+    for one in walk_for({"Assign"}, program):
         match one:
             case ir.Assign(target=ir.System(name=name) as target, value=value) if name in (_SHARE, _LIMIT):
                 yield _Setting(target, value)

@@ -13,6 +13,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.forward import Forward, reactions, started
 from rpl.passes.legalise.interrupts.tasks.criticals import Facts
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
@@ -33,7 +34,9 @@ def at_rest(program: ir.Program, context: Context) -> ir.Program:
     actions on the way do not move the robot; their routines stay as they are."""
     if program.tasks:
         return program
-    nodes = list(walk(*program.modules))
+    nodes = list(
+        walk_for({"DeclareInterrupt", "ConnectInterrupt", "Trigger", "DefineTrigger", "OnError"}, *program.modules)
+    )
     worker = _AtRest(Facts(program))
     if not worker.beside([n for n in nodes if isinstance(n, _INTERRUPTS)]):
         return program

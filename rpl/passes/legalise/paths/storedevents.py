@@ -14,6 +14,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.rewrite import rewrite_parts
@@ -101,7 +102,9 @@ class _Before:
         self.kept_awake: dict[str, bool] = {}  # by interrupt: is it only deleted, behind moves that stand?
         self.flags: dict[str, ir.Variable] = {}
         self.wrappers: dict[str, ir.Routine] = {}
-        for node in walk(*program.modules):
+        for node in walk_for(
+            {"ConnectInterrupt", "OrderInterrupt", "DefineTrigger", "ControlInterrupt", "Move"}, *program.modules
+        ):
             self.collect(node)
 
     def collect(self, node: object) -> None:
@@ -124,7 +127,7 @@ class _Before:
 
     def program(self) -> ir.Program:
         if not self.definitions.single and not any(
-            isinstance(node, ir.Move) and node.triggers for node in walk(*self.source.modules)
+            isinstance(node, ir.Move) and node.triggers for node in walk_for({"Move"}, *self.source.modules)
         ):
             return self.source
         modules = []

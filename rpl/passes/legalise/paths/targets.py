@@ -16,6 +16,7 @@ from rpl.passes import rigid
 from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -50,7 +51,7 @@ _POSITION = ("x", "y", "z")
 def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without relative moves or partial targets."""
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
-    goes_on = any(isinstance(node, ir.Move) and _goes_on(node) for node in walk(*program.modules))
+    goes_on = any(isinstance(node, ir.Move) and _goes_on(node) for node in walk_for({"Move"}, *program.modules))
     modules = []
     for module in program.modules:
         routines = []

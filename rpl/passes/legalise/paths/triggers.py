@@ -14,6 +14,7 @@ from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.usage import usage_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.paths.storedevents import events_before_moves
 from rpl.passes.legalise.rewriting.earlyways import by_way
 from rpl.passes.legalise.rewriting.editing import edit_bodies
@@ -322,7 +323,7 @@ def _starts(program: ir.Program, scopes: ProgramScope, unchanged: Unchanged) -> 
         for routine in module.routines:
             _AtMoves(scopes.routine(module, routine), unchanged, {}, found).routine(routine)
     beside = [program.entry or "", *(task.entry for task in program.tasks)]
-    for node in walk(*program.modules):
+    for node in walk_for({"CallRoutine", "ConnectInterrupt", "TaskControl"}, *program.modules):
         match node:
             case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
                 begin = _first_text(dynamic)

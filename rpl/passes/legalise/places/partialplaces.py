@@ -16,6 +16,7 @@ from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant, constant_number, lasting
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import WRITTEN, taught_names
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -63,7 +64,7 @@ class Known:
 @legalising(unless=lambda context: PlaceRule.PARTIAL in context.capabilities.places.rules)
 def partial_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without places of some components."""
-    if not any(_is_partial_move(node) for node in walk(program)):
+    if not any(_is_partial_move(node) for node in walk_for({"Move"}, program)):
         return program
     return _Places(program, context).program()
 

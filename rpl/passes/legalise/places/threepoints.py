@@ -24,6 +24,7 @@ from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.straightplaces import StraightPlaces
 from rpl.passes.legalise.facts.taughtvalues import tell_written
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.places.arcends import COMPUTED, computed_arc
 from rpl.passes.legalise.places.arctriggers import placeable, shared_out
 from rpl.passes.legalise.places.circles import has_arcs
@@ -128,7 +129,11 @@ def three_point_arcs(program: ir.Program, context: Context) -> ir.Program:
         return program
     known, ours = unchanged_in(program), _default(context.source)
     flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
-    default = "" if any(isinstance(node, ir.Assign) and node.target == _RULE for node in walk(program)) else ours
+    default = (
+        ""
+        if any(isinstance(node, ir.Assign) and node.target == _RULE for node in walk_for({"Assign"}, program))
+        else ours
+    )
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         return edit_bodies(routine, _Arcs(context, editor, known, flow, default).body)

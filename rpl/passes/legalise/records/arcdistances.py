@@ -20,6 +20,7 @@ from rpl.passes.curves import circle_through
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.records.pathevents import in_base
 from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
@@ -56,7 +57,7 @@ _WITHIN = 0.999  # of the arc: a place farther than that from one end is at the 
 )
 def arc_distances(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that measure places on a path straight."""
-    if not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
+    if not any(isinstance(node, ir.Trigger) for node in walk_for({"Trigger"}, *program.modules)):
         return program
     unchanged = seen_by_writers(program, context)
     drivers = closure(program, _MOTION)

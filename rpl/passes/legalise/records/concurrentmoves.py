@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.beside import Beside, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, expansion
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -33,7 +34,7 @@ _LEAVING = (ir.Return, ir.Goto, ir.Label, ir.ExitLoop, ir.NextPass, ir.Halt, ir.
 
 
 def has_concurrent(program: ir.Program) -> bool:
-    return any(isinstance(node, ir.Move) and node.concurrent for node in walk(*program.modules))
+    return any(isinstance(node, ir.Move) and node.concurrent for node in walk_for({"Move"}, *program.modules))
 
 
 class ConcurrentMoves:

@@ -16,6 +16,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.records.arcdistances import ends_known, seen_by_writers, written
 from rpl.passes.legalise.records.pathevents import in_base
 from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits, tidy
@@ -55,7 +56,7 @@ _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, i
 @legalising(unless=lambda context: not context.capabilities.motion.cut_from_mm, sees=("Trigger",))
 def path_points(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves are cut."""
-    if not any(isinstance(node, ir.Trigger) for node in walk(*program.modules)):
+    if not any(isinstance(node, ir.Trigger) for node in walk_for({"Trigger"}, *program.modules)):
         return program
     drivers = closure(program, _MOTION)
     unchanged = seen_by_writers(program, context)

@@ -15,6 +15,7 @@ from typing import TypeVar
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 _Call = ir.Call | ir.CallRoutine
@@ -29,7 +30,7 @@ def drop_unread_parameters(program: ir.Program, context: Context) -> ir.Program:
     if all(len(routine.parameters) <= most for routine in routines):
         return program
     count = Counter(routine.name.lower() for routine in routines)
-    nodes = list(walk(*program.modules))
+    nodes = list(walk_for({"Call", "CallRoutine", "TaskControl"}, *program.modules))
     if any(isinstance(node, ir.CallRoutine) and node.dynamic is not None for node in nodes):
         return program
     started = {node.task.lower() for node in nodes if isinstance(node, ir.TaskControl)}

@@ -21,6 +21,7 @@ from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.facts.watches import MOTION, Watch
 from rpl.passes.legalise.interrupts.endedmoves import EndedMoves, goes_on, unending
 from rpl.passes.legalise.interrupts.searchtasks import SearchTasks
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.records.concurrentmoves import ConcurrentMoves, has_concurrent
 from rpl.passes.legalise.rewriting.beside import Beside, closure, local_names, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
@@ -72,7 +73,7 @@ _ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt,
 def watching(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""
     can = context.capabilities
-    nodes = list(walk(*program.modules))
+    nodes = list(walk_for({"Search", "DeclareInterrupt"}, *program.modules))
     searches = can.interrupts.watched is Watched.ALL and any(isinstance(node, ir.Search) for node in nodes)
     interrupts = any(isinstance(node, ir.DeclareInterrupt) for node in nodes)
     concurrent = can.interrupts.watched is Watched.ALL and has_concurrent(program)
@@ -149,7 +150,11 @@ class _Watches:
     def overlap(self, key: int, other: int) -> bool:
         """Is there a statement that runs while both may come?"""
         both = [armed_statements(self.program, Armed(one)) for one in (key, other)]
-        named = {id(node) for node in walk(*self.program.modules) if isinstance(node, ir.ControlInterrupt)}
+        named = {
+            id(node)
+            for node in walk_for({"ControlInterrupt"}, *self.program.modules)
+            if isinstance(node, ir.ControlInterrupt)
+        }
         return bool(both[0] & both[1] - named)
 
     def flag(self, stem: str) -> str:
@@ -160,8 +165,12 @@ class _Watches:
     # ---- what there is
 
     def collect(self) -> None:
-        ops = {node.op for node in walk(*self.program.modules) if isinstance(node, ir.ControlInterrupt)}
-        for node in walk(*self.program.modules):
+        ops = {
+            node.op
+            for node in walk_for({"ControlInterrupt"}, *self.program.modules)
+            if isinstance(node, ir.ControlInterrupt)
+        }
+        for node in walk_for({"OrderInterrupt"}, *self.program.modules):
             if isinstance(node, ir.OrderInterrupt) and node.time is not None and number_of(node.handle) is not None:
                 self.periods.setdefault(number_of(node.handle) or 0, []).append(node.time)
         for module in self.program.modules:
@@ -248,7 +257,11 @@ class _Watches:
         if any(self.overlap(key, other) for other in others):
             return "another one stops the robot already, and a move looks at one condition"
         on = armed_statements(self.program, Armed(key))
-        driven = [node for node in walk(*self.program.modules) if id(node) in on and isinstance(node, _DRIVEN)]
+        driven = [
+            node
+            for node in walk_for({"Move", "MoveExternal", "Spline"}, *self.program.modules)
+            if id(node) in on and isinstance(node, _DRIVEN)
+        ]
         if any(not isinstance(node, ir.Move) for node in driven):
             return "what is driven while it is on is no single move"
         if driven and goes_on(self.program, one):

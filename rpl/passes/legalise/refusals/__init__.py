@@ -12,9 +12,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.refusals.arm import ARM
 from rpl.passes.legalise.refusals.errors import ERRORS, serves_all_errors
 from rpl.passes.legalise.refusals.motion import MOTION
@@ -54,10 +55,14 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
     without = not {"DeclareInterrupt", "ConnectInterrupt"} & context.capabilities.statements
     routines = serves_all_errors(program, context.capabilities.statements)
     if without:
-        begun = [n for n in walk(*program.modules) if isinstance(n, ir.DeclareInterrupt | ir.ConnectInterrupt)]
+        begun = [
+            n
+            for n in walk_for({"DeclareInterrupt", "ConnectInterrupt"}, *program.modules)
+            if isinstance(n, ir.DeclareInterrupt | ir.ConnectInterrupt)
+        ]
         program = without_actions(program, begun) if begun else program
     if not routines:
-        set_by = [node for node in walk(*program.modules) if isinstance(node, ir.OnError)]
+        set_by = [node for node in walk_for({"OnError"}, *program.modules) if isinstance(node, ir.OnError)]
         program = without_actions(program, set_by, NOT_SET) if set_by else program
 
     def changed(statement: ir.Statement, asked: Asked) -> ir.Body | None:

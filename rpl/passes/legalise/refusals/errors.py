@@ -9,6 +9,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import rules_of
 from rpl.passes.legalise.facts.effects import children
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 
 __all__ = ["ERRORS", "serves_all_errors"]
@@ -32,7 +33,9 @@ _NUMBER = ir.System("error_number")
 
 def serves_all_errors(program: ir.Program, asked: frozenset[str]) -> bool:
     """Has a target with these statements a routine for all errors, those that the program raises itself among them?"""
-    return "OnError" in asked and ("Raise" in asked or not any(isinstance(one, ir.Raise) for one in walk(program)))
+    return "OnError" in asked and (
+        "Raise" in asked or not any(isinstance(one, ir.Raise) for one in walk_for({"Raise"}, program))
+    )
 
 
 def _routine(statement: ir.OnError, asked: Asked) -> Found:

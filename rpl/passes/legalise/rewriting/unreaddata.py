@@ -7,15 +7,16 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.facts.effects import Effects
+from rpl.passes.legalise.kinds import walk_for
 
 
 def without_unread(program: ir.Program, names: Collection[str]) -> ir.Program:
     """The program without those of the variables (folded names) that are only the whole target of assignments whose
     values change nothing, call nothing and cannot fail. Remarks of the assignments stay."""
     used, noted, effects = Counter[str](), Counter[str](), Effects(program)
-    for node in walk(*program.modules):
+    for node in walk_for({"Name", "Assign"}, *program.modules):
         match node:
             case ir.Name(id=name):
                 used[name.lower()] += 1

@@ -15,6 +15,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import children
 from rpl.passes.legalise.facts.intervals import unproven
 from rpl.passes.legalise.facts.raising import raising_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
@@ -32,7 +33,13 @@ def checked_subscripts(program: ir.Program, context: Context) -> ir.Program:
         return program
     tasks = {module.task for module in program.modules}
     alone = len(tasks) == 1 and len(program.tasks) <= 1
-    alone = alone and not any(isinstance(node, _BESIDE) for node in walk(*program.modules))
+    alone = alone and not any(
+        isinstance(node, _BESIDE)
+        for node in walk_for(
+            {"DeclareInterrupt", "ConnectInterrupt", "OrderInterrupt", "TaskControl", "Trigger", "DefineTrigger"},
+            *program.modules,
+        )
+    )
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         found = unproven(routine, editor.scope, alone)

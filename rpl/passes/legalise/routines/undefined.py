@@ -16,6 +16,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.forward import Forward
 from rpl.passes.legalise.facts.usage import base_name, each_expression, each_statement
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -175,7 +176,12 @@ def _given(
 
 def _certain(program: ir.Program, calls: _Calls) -> frozenset[int]:
     """Ids of the parameters that each call gives a value, of routines that are called by their name alone."""
-    nodes = list(walk(*program.modules))
+    nodes = list(
+        walk_for(
+            {"CallRoutine", "TaskControl", "DeclareInterrupt", "Trigger", "DefineTrigger", "Spline", "OrderInterrupt"},
+            *program.modules,
+        )
+    )
     if any(isinstance(node, ir.CallRoutine) and node.dynamic for node in nodes):
         return frozenset()
     beside = {node.task.lower() for node in nodes if isinstance(node, ir.TaskControl)}

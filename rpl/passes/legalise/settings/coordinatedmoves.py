@@ -13,9 +13,9 @@ from typing import TypeGuard
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.types import POSITIONAL
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
@@ -46,7 +46,9 @@ _UNIT = "base_unit"
 def coordinated_moves(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the setting."""
     can = context.capabilities
-    if "WorkObjectType" not in can.types and any(_is_carried(node) for node in walk(*program.modules)):
+    if "WorkObjectType" not in can.types and any(
+        _is_carried(node) for node in walk_for({"Assign", "Variable"}, *program.modules)
+    ):
         program = _Composed(program, context).program()
     lacking = tuple(name for name in (SETTING, REMOTE) if name not in can.system_variables)
     return _Guarded(program, context, lacking).program() if lacking else program

@@ -165,7 +165,7 @@ class _Explicit:
 
     def without_dead_settings(self, program: ir.Program) -> ir.Program:
         """Data that no move reads, because every move names constants, is neither set nor declared."""
-        named = Counter(node.id for node in walk(*program.modules) if isinstance(node, ir.Name))
+        named = Counter(node.id for node in walk_for({"Name"}, *program.modules) if isinstance(node, ir.Name))
         named.subtract(_set_in_parts(program))
         dead = {name for name in self.state.names.values() if not named[name]}
         self.state.names = {kind: name for kind, name in self.state.names.items() if name not in dead}

@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.modal import DROPPED, USUAL
@@ -43,7 +44,7 @@ def _said_by_all(program: ir.Program) -> frozenset[str]:
     """Settings that each move which is driven by them says itself, and that nothing else asks for or sets: nothing has
     to be set back behind a move."""
     found = _JOINT | _PATH
-    for node in walk(*program.modules):
+    for node in walk_for({"Move", "Spline", "MoveExternal", "Vendor", "Opaque"}, *program.modules):
         match node:
             case ir.Move(motion_class="classic", kind=kind, settings=settings):
                 own = {place.name for place, _ in settings if isinstance(place, ir.System)}
@@ -51,8 +52,8 @@ def _said_by_all(program: ir.Program) -> frozenset[str]:
                 found -= {one.name for _, value in settings for one in walk(value) if isinstance(one, ir.System)}
             case ir.Move() | ir.Spline() | ir.MoveExternal() | ir.Vendor() | ir.Opaque():
                 return frozenset()
-    asked = Counter(node.name for node in walk(*program.modules) if isinstance(node, ir.System))
-    moves = (node for node in walk(*program.modules) if isinstance(node, ir.Move))
+    asked = Counter(node.name for node in walk_for({"System"}, *program.modules) if isinstance(node, ir.System))
+    moves = (node for node in walk_for({"Move"}, *program.modules) if isinstance(node, ir.Move))
     asked.subtract(place.name for move in moves for place, _ in move.settings if isinstance(place, ir.System))
     return frozenset(name for name in found if not asked[name])
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.shadows import NO_SHIFT, Shadow, with_shadows
@@ -28,7 +28,7 @@ _GOALS = ("target_to_joints", "target_to_joints_near")
 @legalising(unless=lambda context: not context.capabilities.settings.modal)
 def own_places(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion; programs that set a tool or frame and have moves with one of their own."""
-    nodes = [*walk(*program.modules)]
+    nodes = [*walk_for({"Move", "Assign", "System", "Builtin"}, *program.modules)]
     named = {
         name
         for node in nodes

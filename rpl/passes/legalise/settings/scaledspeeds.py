@@ -15,6 +15,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -49,12 +50,15 @@ _OVERRIDE = ir.System("override")
 )
 def scaled_override(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the override among their system variables, whose moves say their own speeds."""
-    if not any(_sets(node) for node in walk(program)):
+    if not any(_sets(node) for node in walk_for({"Assign"}, program)):
         return _as_full(program, context)
-    moves = [node for node in walk(program) if isinstance(node, ir.Move)]
-    if any(isinstance(node, ir.Spline) for node in walk(program)) or not all(map(_says_speed, moves)):
+    moves = [node for node in walk_for({"Move"}, program) if isinstance(node, ir.Move)]
+    if any(isinstance(node, ir.Spline) for node in walk_for({"Spline"}, program)) or not all(map(_says_speed, moves)):
         return program
-    if any(isinstance(node, ir.DeclareInterrupt) and any(map(_sets, walk((node.action,)))) for node in walk(program)):
+    if any(
+        isinstance(node, ir.DeclareInterrupt) and any(map(_sets, walk((node.action,))))
+        for node in walk_for({"DeclareInterrupt"}, program)
+    ):
         return program
 
     def settings(editor: Editor, routine: ir.Routine) -> ir.Routine:
@@ -78,7 +82,7 @@ def scaled_override(program: ir.Program, context: Context) -> ir.Program:
 
 def _as_full(program: ir.Program, context: Context) -> ir.Program:
     """An override that the program only reads."""
-    first = next((node for node in walk(program) if _is_override(node)), None)
+    first = next((node for node in walk_for({"System"}, program) if _is_override(node)), None)
     if first is None:
         return program
     assert isinstance(first, ir.System)

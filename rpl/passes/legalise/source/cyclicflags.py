@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -48,7 +49,7 @@ def cyclic_flags(program: ir.Program, context: Context) -> ir.Program:
 
 
 def _has_flags(program: ir.Program) -> bool:
-    return any(isinstance(node, ir.System) and node.name == _FLAG for node in walk(program))
+    return any(isinstance(node, ir.System) and node.name == _FLAG for node in walk_for({"System"}, program))
 
 
 @dataclass(slots=True)

@@ -10,6 +10,7 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed
@@ -22,7 +23,9 @@ _SIMPLE = (ir.IntType, ir.RealType, ir.BoolType)
 def fixed_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets where data takes numbers. What the source keeps from run to run stays data: people change it."""
     unchanged, scopes = unchanged_in(program), ProgramScope(program)
-    unchanged.assigned |= {node.counter.lower() for node in walk(*program.modules) if isinstance(node, ir.For)}
+    unchanged.assigned |= {
+        node.counter.lower() for node in walk_for({"For"}, *program.modules) if isinstance(node, ir.For)
+    }
     modules = []
     for module in program.modules:
         scope = scopes.module(module)

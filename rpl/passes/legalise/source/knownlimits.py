@@ -11,6 +11,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.heldvalues import Held, HeldValues, KnownData
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.stages import legalising
@@ -23,7 +24,9 @@ _CONTROLLERS = "$"  # how a variable of the controller itself begins; data of a 
 @legalising(unless=lambda context: not context.foreign, sees=("WaitUntil",))
 def known_limits(program: ir.Program, context: Context) -> ir.Program:
     """Only into other languages: their waits say the limit."""
-    waits = [one for one in walk(program) if isinstance(one, ir.WaitUntil) and one.timeout is not None]
+    waits = [
+        one for one in walk_for({"WaitUntil"}, program) if isinstance(one, ir.WaitUntil) and one.timeout is not None
+    ]
     names = {
         node.id.lower()
         for wait in waits

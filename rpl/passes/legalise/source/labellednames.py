@@ -18,6 +18,7 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.capabilities import ModulePoints
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed
 
@@ -29,7 +30,9 @@ _WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 @legalising(unless=lambda context: bool(context.capabilities.storage.banks))
 def labels_as_names(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose variables have names. Long runs of moves name their places by number and stay."""
-    if any(isinstance(node, ir.Rows | ir.VariableRows) for node in walk(*program.modules)):
+    if any(
+        isinstance(node, ir.Rows | ir.VariableRows) for node in walk_for({"Rows", "VariableRows"}, *program.modules)
+    ):
         return program
     program = _with_flags(program, context)
     routines = [routine for module in program.modules for routine in module.routines]

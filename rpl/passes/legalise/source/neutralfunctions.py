@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import TypeGuard
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
@@ -28,7 +28,7 @@ _HELPERS = {
 def neutral_functions(program: ir.Program, context: Context) -> ir.Program:
     """The program without the functions of this kind that the target has no word for."""
     worker = _Functions(program, context)
-    if not any(worker.lacks(node) for node in walk(*program.modules)):
+    if not any(worker.lacks(node) for node in walk_for({"Builtin"}, *program.modules)):
         return program
     return worker.helpers.added_to(worker.program())
 

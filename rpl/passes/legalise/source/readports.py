@@ -7,8 +7,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 _OUTPUTS = {"digital_in": "digital_out", "group_in": "group_out", "analog_in": "analog_out"}
@@ -17,7 +18,11 @@ _OUTPUTS = {"digital_in": "digital_out", "group_in": "group_out", "analog_in": "
 @legalising(unless=lambda context: context.capabilities.carries_rules, sees=("Signal",))
 def read_ports(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs with such a port; names that a declaration gives are signals of one kind."""
-    named = {(one.kind, one.name.lower()) for one in walk(*program.modules) if isinstance(one, ir.Signal) and one.name}
+    named = {
+        (one.kind, one.name.lower())
+        for one in walk_for({"Signal"}, *program.modules)
+        if isinstance(one, ir.Signal) and one.name
+    }
     both = {(kind, name) for kind, name in named if (_OUTPUTS.get(kind, ""), name) in named}
     if not both:
         return program

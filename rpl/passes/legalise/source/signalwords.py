@@ -17,6 +17,7 @@ from rpl.ir.walk import walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.source.signalparameters import signals_as_parameters
 from rpl.passes.legalise.stages import legalising
@@ -111,7 +112,11 @@ class _Words:
 
     def name(self, name: str, kind: str, number: int) -> None:
         signal = ir.Signal(kind, ir.IntLiteral(number))
-        taken = [node.signal for node in walk(*self.source.modules) if isinstance(node, ir.SignalDeclaration)]
+        taken = [
+            node.signal
+            for node in walk_for({"SignalDeclaration"}, *self.source.modules)
+            if isinstance(node, ir.SignalDeclaration)
+        ]
         if name in self.values and signal not in (*taken, *(one.signal for one in self.names.values())):
             self.names[name] = ir.SignalDeclaration(name, signal, scope="global")
 

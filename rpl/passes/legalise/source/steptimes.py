@@ -12,6 +12,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import children, statements_in
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE, Origin
 
@@ -29,7 +30,7 @@ _CYCLE_S = 0.012  # of a source that says nothing about it: the cycle in which c
 @legalising(unless=lambda context: _STEP.name in context.capabilities.system_variables, sees=("system step_time",))
 def step_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such a system variable."""
-    if _STEP not in list(walk(*program.modules)):
+    if _STEP not in list(walk_for({"system step_time"}, *program.modules)):
         return program
     cycle = rules_of(context.source).wait_poll_s or _CYCLE_S
     seconds = max(cycle, context.capabilities.io.shortest_wait_s)

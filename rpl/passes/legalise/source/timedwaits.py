@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -39,7 +40,7 @@ def timed_waits(program: ir.Program, context: Context) -> ir.Program:
 def _limited(program: ir.Program) -> frozenset[int]:
     """The timers that nothing reads but waits behind their start."""
     read: Counter[int] = Counter()
-    for node in walk(program):
+    for node in walk_for({"System"}, program):
         if isinstance(node, ir.System) and node.name in _TIMERS:
             number = _number(node)
             if number is None:

@@ -18,6 +18,7 @@ from rpl.passes.capabilities import Limit
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, blocks
 from rpl.passes.legalise.facts.runbeside import RunBeside
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
@@ -74,8 +75,8 @@ def _step(statement: ir.Statement) -> _Step | None:
 def _scratch(program: ir.Program) -> frozenset[str]:
     """Numbers of modules that are read nowhere but directly behind a line that sets them to a value of their type, and
     are named in nothing that runs beside."""
-    named = Counter(node.id.lower() for node in walk(*program.modules) if isinstance(node, ir.Name))
-    counters = {node.counter.lower() for node in walk(*program.modules) if isinstance(node, ir.For)}
+    named = Counter(node.id.lower() for node in walk_for({"Name"}, *program.modules) if isinstance(node, ir.Name))
+    counters = {node.counter.lower() for node in walk_for({"For"}, *program.modules) if isinstance(node, ir.For)}
     effects, scopes, beside = Effects(program), ProgramScope(program), RunBeside.of(program).beside
     covered, refused = Counter[str](), set(counters)
     for module in program.modules:

@@ -18,6 +18,7 @@ from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, blocks, is_constant, may_be_zero, statements_in
 from rpl.passes.legalise.facts.raising import Raising, raising_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body
 from rpl.passes.legalise.rewriting.support import default_value, with_support
@@ -85,7 +86,7 @@ def check_errors(program: ir.Program, context: Context) -> ir.Program:
 
 def _report_not_caught(program: ir.Program, context: Context) -> None:
     """Handlers that may take the fault of a function whose argument is not constant or surely wrong."""
-    if not any(isinstance(node, ir.Builtin) and _may_fail(node) for node in walk(*program.modules)):
+    if not any(isinstance(node, ir.Builtin) and _may_fail(node) for node in walk_for({"Builtin"}, *program.modules)):
         return
     for module in program.modules:
         for routine in module.routines:

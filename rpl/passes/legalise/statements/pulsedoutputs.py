@@ -16,6 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import PulseRule
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
@@ -77,7 +78,7 @@ def _switched(program: ir.Program, scopes: ProgramScope, asked: set[int]) -> set
     """Those of the numbers that a statement which is not a pulse may switch on."""
     found: set[int] = set()
     words: set[str] = set()
-    for node in walk(*program.modules):
+    for node in walk_for({"Signal", "Vendor", "Opaque"}, *program.modules):
         match node:
             case ir.Signal(kind="digital_out", index=index, last=None) if not isinstance(index, ir.IntLiteral | None):
                 return set(asked)  # an output that is known only in the run

@@ -10,10 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import PulseRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
@@ -37,7 +37,7 @@ _HIGH, _LOW = ir.BoolLiteral(True), ir.BoolLiteral(False)
 def pulse_levels(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that pulse to high, or for known times, and can begin a task."""
     worker = _Pulses(context)
-    pulses = [one for one in walk(*program.modules) if isinstance(one, ir.Pulse)]
+    pulses = [one for one in walk_for({"Pulse"}, *program.modules) if isinstance(one, ir.Pulse)]
     if all(one.value == _HIGH and worker.measured(one) for one in pulses):
         return program
 

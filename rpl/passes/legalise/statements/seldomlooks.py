@@ -11,6 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.advance import looks
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 SELDOM = code(
@@ -31,7 +32,7 @@ def seldom_looks(program: ir.Program, context: Context) -> ir.Program:
     if target <= max(source, _CYCLE_S):
         return program
     told = set()
-    for node in walk(*program.modules):
+    for node in walk_for({"WaitUntil"}, *program.modules):
         if isinstance(node, ir.WaitUntil) and any(map(_passes, walk(node.condition))) and node.origin not in told:
             told.add(node.origin)
             context.diagnostics.report(SELDOM, node.origin, seconds=target)

@@ -11,11 +11,12 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies
 from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, children, everything, is_constant, root, statements_in
 from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers, of_held_timers
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -219,7 +220,7 @@ class _Waits:
 def _switched(program: ir.Program) -> Counter[str | int | None]:
     """How many statements switch each output, by its name or number; None: outputs that the run chooses, and groups."""
     found: Counter[str | int | None] = Counter()
-    for node in walk(*program.modules):
+    for node in walk_for({"Assign", "Pulse", "SetAfter"}, *program.modules):
         match node:
             case ir.Assign(target=ir.Signal() | ir.Name() as signal):
                 found[_output(signal)] += 1

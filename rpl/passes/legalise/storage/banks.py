@@ -13,10 +13,10 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import Bank
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import type_word
 from rpl.source import NOWHERE, Origin
@@ -186,7 +186,7 @@ def held(program: ir.Program, banks: Iterable[Bank]) -> dict[str, set[int]]:
     time, the upper quarter of the bank is left for variables."""
     found: dict[str, set[int]] = {}
     by_use = {bank.holds: bank for bank in banks if bank.holds}
-    for node in walk(*program.modules):
+    for node in walk_for({"Signal", "System"}, *program.modules):
         match node:
             case ir.Signal(kind=use, index=index, name=None) if use in by_use and index is not None:
                 number: ir.Expression = index

@@ -14,10 +14,10 @@ from itertools import count
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.rows import Cells
-from rpl.ir.walk import walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.storage.banks import own_number
 from rpl.passes.legalise.storage.rowpoints import Keys, of_one_shape, shown, shown_in_rows
 from rpl.passes.scope import Scope
@@ -59,7 +59,7 @@ def poses_of_moves(program: ir.Program, context: Context) -> frozenset[str]:
     at_moves = context.capabilities.places.move_functions
     named: Counter[str] = Counter()
     placed: Counter[str] = Counter()
-    for node in walk(*program.modules):
+    for node in walk_for({"Name", "Move", "Assign"}, *program.modules):
         match node:
             case ir.Name(id=name):
                 named[name.lower()] += 1

@@ -9,10 +9,10 @@ from collections import Counter
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -35,7 +35,7 @@ def unread_flags(program: ir.Program, context: Context) -> ir.Program:
     written: Counter[str] = Counter()
     flags: set[str] = set()
     effects = Effects(program)
-    for node in walk(*program.modules):
+    for node in walk_for({"Name", "Assign", "WaitUntil"}, *program.modules):
         match node:
             case ir.Name(id=name):
                 named[name.lower()] += 1

@@ -17,6 +17,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import assigned_in, called_names, exposed
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.beside import closure, local_names, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
@@ -50,7 +51,7 @@ class _UnfitError(Exception):
 @legalising(unless=lambda context: context.capabilities.tasks.moving, sees=("TaskControl",))
 def called_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose other tasks cannot move the robot."""
-    controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]
+    controls = [node for node in walk_for({"TaskControl"}, *program.modules) if isinstance(node, ir.TaskControl)]
     if not any(one.op == "start" for one in controls):
         return program
     drives = closure(program, _DRIVES)
@@ -106,7 +107,7 @@ class _Called:
         self.ended = frozenset(assigned_in(tuple(tail)))
 
     def program_with_calls(self) -> ir.Program:
-        asked = [node for node in walk(*self.program.modules) if self.is_control(node)]
+        asked = [node for node in walk_for({"TaskControl"}, *self.program.modules) if self.is_control(node)]
         if any(one.op in ("pause", "resume") for one in asked):
             raise _UnfitError("it is halted and goes on in the middle")
         if self.task.kind == "function":
@@ -117,7 +118,7 @@ class _Called:
                 replace(module, routines=tuple(map(self.routine, module.routines))) for module in self.program.modules
             ),
         )
-        if any(self.is_control(node) for node in walk(*done.modules)):
+        if any(self.is_control(node) for node in walk_for({"TaskControl"}, *done.modules)):
             raise _UnfitError("the program ends it, or waits for it, where it was not started")
         if self.made:
             done = self.ending(done)

@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.entries import never_called
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 
@@ -21,7 +21,7 @@ from rpl.source import NOWHERE
 @legalising()
 def started_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only where a statement or an expression names such a task; other tasks must not be there."""
-    nodes = [*walk(*program.modules)]
+    nodes = [*walk_for({"TaskControl", "Halt"}, *program.modules)]
     controlled = {node.task.lower() for node in nodes if isinstance(node, ir.TaskControl)}
     motion = [task for task in program.tasks if task.kind == "motion"]
     beside = [task for task in program.tasks if task.kind != "motion"]
@@ -47,7 +47,11 @@ def started_tasks(program: ir.Program, context: Context) -> ir.Program:
 
 def _entry(program: ir.Program, beside: set[str]) -> str:
     """The routine that the program begins with, when nothing else runs it; empty text where that is open."""
-    called = {node.name.lower() for node in walk(*program.modules) if isinstance(node, ir.Call | ir.CallRoutine)}
+    called = {
+        node.name.lower()
+        for node in walk_for({"Call", "CallRoutine"}, *program.modules)
+        if isinstance(node, ir.Call | ir.CallRoutine)
+    }
     begins = {program.entry.lower()} if program.entry else set(never_called(program)) - beside
     return next(iter(begins)) if len(begins) == 1 and not begins & called else ""
 

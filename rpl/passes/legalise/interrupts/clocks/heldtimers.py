@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name, called_below, doing
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -34,7 +35,7 @@ def held_timers(program: ir.Program, context: Context) -> ir.Program:
 
 def of_held_timers(program: ir.Program, context: Context, only: frozenset[int] | None = None) -> ir.Program:
     """As `held_timers`, of these timers only where others have been treated."""
-    stopped = {number for node in walk(program) if (number := _stopping(node)) is not None}
+    stopped = {number for node in walk_for({"Assign"}, program) if (number := _stopping(node)) is not None}
     never = _never_started(program)
     stopped |= never | _set_ahead(program)
     if only is not None:
@@ -82,7 +83,7 @@ def _never_started(program: ir.Program) -> set[int]:
     """Timers that nothing starts: they show what they are set to. Timers of computed numbers may be any."""
     used: set[int] = set()
     started: set[int] = set()
-    for node in walk(program):
+    for node in walk_for({"Assign", "System"}, program):
         match node:
             case ir.Assign(target=ir.System(name="timer_stopped", indices=indices), value=value):
                 if not indices or not isinstance(indices[0], ir.IntLiteral):
@@ -145,7 +146,7 @@ def _without(routine: ir.Routine, unread: set[str]) -> ir.Routine:
 def _apart(program: ir.Program) -> set[int]:
     """Timers that tasks, interrupts or actions on the path set: whether they run may change at any place."""
     roots = {task.entry.lower() for task in program.tasks if task.kind != "motion"}
-    for node in walk(*program.modules):
+    for node in walk_for({"DeclareInterrupt", "Trigger", "ConnectInterrupt", "TaskControl"}, *program.modules):
         match node:
             case (
                 ir.DeclareInterrupt(action=ir.CallRoutine(name=name))

@@ -7,8 +7,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.startdata import assigned_at_start
 from rpl.passes.legalise.stages import legalising
 
@@ -26,7 +27,7 @@ _TIMERS = ("timer", "timer_stopped", "timer_positive")
 def program_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that ask for the time; a timer of a computed number could be any, so such programs stay."""
     can = context.capabilities
-    nodes = list(walk(*program.modules))
+    nodes = list(walk_for({"System"}, *program.modules))
     if _TIME not in nodes:
         return program
     used: set[int] = set()

@@ -17,6 +17,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Background
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.movesettings import plain
@@ -79,7 +80,7 @@ def background_tasks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with background programs and no statement that starts a task."""
     if any(module.task for module in program.modules) or any(task.kind != "background" for task in program.tasks):
         return program
-    controls = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl)]
+    controls = [node for node in walk_for({"TaskControl"}, *program.modules) if isinstance(node, ir.TaskControl)]
     return _Maker(program, context, controls).done() if controls or program.tasks else program
 
 
@@ -195,7 +196,7 @@ class _Maker:
     def is_called(self, routine: ir.Routine) -> bool:
         return any(
             isinstance(node, ir.CallRoutine | ir.Call) and node.name.lower() == routine.name.lower()
-            for node in walk(*self.program.modules)
+            for node in walk_for({"CallRoutine", "Call"}, *self.program.modules)
         )
 
     # ---- the program with the tasks

@@ -14,6 +14,7 @@ from rpl import ir
 from rpl.ir.walk import bodies, children, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
@@ -41,7 +42,11 @@ class Facts:
 
     def __init__(self, program: ir.Program) -> None:
         self.routines = {r.name.lower(): r for module in program.modules for r in module.routines}
-        starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.op == "start"]
+        starts = [
+            node
+            for node in walk_for({"TaskControl"}, *program.modules)
+            if isinstance(node, ir.TaskControl) and node.op == "start"
+        ]
         declared = {node.task.lower() for node in starts if node.origin is NOWHERE}  # starting these again says nothing
         self.started = Counter(node.task.lower() for node in starts if node.task.lower() not in declared)
         self.started.update(declared)
@@ -163,6 +168,6 @@ def _changed_names(beside: list[ir.Body]) -> Iterator[str]:
 
 
 def _in_loops(program: ir.Program) -> Iterator[ir.TaskControl]:
-    for loop in walk(*program.modules):
+    for loop in walk_for({"While", "Repeat", "Loop", "For"}, *program.modules):
         if isinstance(loop, ir.While | ir.Repeat | ir.Loop | ir.For):
             yield from (node for node in walk(loop) if isinstance(node, ir.TaskControl))

@@ -8,10 +8,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.ir.walk import bodies, rewrite, walk
+from rpl.ir.walk import bodies, rewrite
 from rpl.passes.capabilities import Parameters, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import assigned_in
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
@@ -26,10 +27,18 @@ from rpl.passes.legalise.stages import legalising
 )
 def task_arguments(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose tasks take none."""
-    starts = [node for node in walk(*program.modules) if isinstance(node, ir.TaskControl) and node.arguments]
+    starts = [
+        node
+        for node in walk_for({"TaskControl"}, *program.modules)
+        if isinstance(node, ir.TaskControl) and node.arguments
+    ]
     if not starts:
         return program
-    called = {node.name.lower() for node in walk(*program.modules) if isinstance(node, ir.CallRoutine | ir.Call)}
+    called = {
+        node.name.lower()
+        for node in walk_for({"CallRoutine", "Call"}, *program.modules)
+        if isinstance(node, ir.CallRoutine | ir.Call)
+    }
     names = {one.task.lower() for one in starts} - called
     given: dict[str, list[ir.Variable]] = {}
     modules = []

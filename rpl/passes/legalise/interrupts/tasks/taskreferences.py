@@ -9,9 +9,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import assigned_in, base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -29,7 +30,7 @@ SHARED = code(
 @legalising(sees=("TaskControl",))
 def task_references(program: ir.Program, context: Context) -> ir.Program:
     """For every target that tells a task's arguments apart from its data."""
-    nodes = [*walk(*program.modules)]
+    nodes = [*walk_for({"TaskControl", "Call", "CallRoutine"}, *program.modules)]
     starts = [one for one in nodes if isinstance(one, ir.TaskControl) and one.op == "start" and one.arguments]
     called = {one.name.lower() for one in nodes if isinstance(one, ir.CallRoutine | ir.Call)}
     shared: dict[str, str] = {}  # task -> a parameter that is no value

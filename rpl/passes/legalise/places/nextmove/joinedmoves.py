@@ -17,6 +17,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.usage import called_names
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
@@ -33,7 +34,10 @@ def joined_moves(program: ir.Program, context: Context) -> ir.Program:
         return program
     start = _first_of_all(program, start)
     settings = [
-        (node, value) for node in walk(*program.modules) for setting, value in _settings(node) if setting == _JOINED
+        (node, value)
+        for node in walk_for({"Assign", "SetForNextMove", "Move"}, *program.modules)
+        for setting, value in _settings(node)
+        if setting == _JOINED
     ]
     usual = ir.BoolLiteral(start)
     if not settings or any(not isinstance(value, ir.BoolLiteral) for _, value in settings):
@@ -97,7 +101,7 @@ def _alone(program: ir.Program, moves: frozenset[int]) -> bool:
 def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.Expression | None] | None:
     """What the moves that say nothing find, by their identity (None: either): nothing where that is what the program
     starts with throughout. None for all where one is set for the next move, whichever that is."""
-    nodes = (node for node in walk(*program.modules) if not isinstance(node, ir.Move))
+    nodes = (node for node in walk_for({"Assign", "SetForNextMove"}, *program.modules) if not isinstance(node, ir.Move))
     changes = [(node, value) for node in nodes for name, value in _settings(node) if name == _JOINED]
     if all(value == ir.BoolLiteral(start) for _, value in changes):
         return {}
@@ -105,7 +109,7 @@ def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.E
         return None
     flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
     found: dict[int, ir.Expression | None] = {}
-    for move in (one for one in walk(*program.modules) if isinstance(one, ir.Move)):
+    for move in (one for one in walk_for({"Move"}, *program.modules) if isinstance(one, ir.Move)):
         if id(move) not in flow.moves or move.blend is not None or any(name == _JOINED for name, _ in move.settings):
             continue
         found[id(move)] = flow.at(move)["blending"]
@@ -114,7 +118,11 @@ def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.E
 
 def _first_of_all(program: ir.Program, start: bool) -> bool:
     """The value that the program sets at its very beginning, once and for all; else the controller's."""
-    found = [node for node in walk(*program.modules) if isinstance(node, ir.Assign) and node.target == _JOINED]
+    found = [
+        node
+        for node in walk_for({"Assign"}, *program.modules)
+        if isinstance(node, ir.Assign) and node.target == _JOINED
+    ]
     if len(found) != 1 or not isinstance(found[0].value, ir.BoolLiteral):
         return start
     routines = [routine for module in program.modules for routine in module.routines]

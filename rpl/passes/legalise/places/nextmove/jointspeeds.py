@@ -23,6 +23,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context, array, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.whereabouts import NOWHERE_KNOWN, Stand, Whereabouts
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -69,7 +70,7 @@ def joint_speeds(program: ir.Program, context: Context) -> ir.Program:
     arm = context.to_robot or context.robot
     if arm is None or context.robot is None or not any(_spoken(one) for one in _joint_moves(*program.modules)):
         return program
-    if any(isinstance(one, ir.System) and one.name in _SHARES for one in walk(*program.modules)):
+    if any(isinstance(one, ir.System) and one.name in _SHARES for one in walk_for({"System"}, *program.modules)):
         return program
     speeds = _Speeds(program, context, context.robot, arm)
     return edit_all(program, speeds.body) if speeds.found else program

@@ -14,13 +14,13 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects, blocks
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, State
 from rpl.passes.legalise.facts.whereabouts import Way, Whereabouts
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.explicit import TIMED_MOVE
@@ -68,7 +68,7 @@ def move_times(program: ir.Program, context: Context) -> ir.Program:
     said = "duration" in (can.settings.speeds or USUAL) and (
         not can.settings.modal or MoveSetting.SPEED in can.settings.of_moves
     )
-    nodes = list(walk(*program.modules))
+    nodes = list(walk_for({"Move", "System"}, *program.modules))
     arcs = said and (PathRule.TIMED_ARCS in can.motion.paths or MoveSetting.SPEED not in can.settings.of_moves)
     timed = {node.kind == "circular" for node in nodes if isinstance(node, ir.Move) and _own(node) is not None}
     wanted = _Wanted(
@@ -97,7 +97,7 @@ class _Facts:
         self.flow = SettingsInForce.of(program, self.ours)
         self.effects = Effects(program)
         self.places = Whereabouts(program, context)
-        moves = [one for one in walk(*program.modules) if isinstance(one, ir.Move)]
+        moves = [one for one in walk_for({"Move"}, *program.modules) if isinstance(one, ir.Move)]
         self.modal = wanted.least and all(self.flow.at(move)[_TIME.name] is not None for move in moves)
 
     def time(self, move: ir.Move) -> tuple[Settings, ir.Expression | None]:

@@ -17,6 +17,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.facts.usage import called_names
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.beside import tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import LOOPS, inside
@@ -51,10 +52,10 @@ _WAITING = (ir.Move, ir.MoveExternal, ir.Spline, ir.WaitForMotion, ir.Halt)
 def queued_waits(program: ir.Program, context: Context) -> ir.Program:
     """Only from controllers whose waits at rest are moves to others."""
     source, target = (rules_of(one).advance.waits_queue for one in (context.source, context.target))
-    if not source or target or not any(_queues(node) for node in walk(*program.modules)):
+    if not source or target or not any(_queues(node) for node in walk_for({"Wait"}, *program.modules)):
         return program
     called = called_names(routine for module in program.modules for routine in module.routines)
-    timed = any(map(_takes_a_time, walk(*program.modules)))
+    timed = any(map(_takes_a_time, walk_for({"System", "Clock", "Builtin", "OrderInterrupt"}, *program.modules)))
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
         worker = _Queued(context, editor, timed)

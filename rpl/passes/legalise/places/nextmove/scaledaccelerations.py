@@ -13,11 +13,12 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.saidaccelerations import number_of
 from rpl.passes.legalise.facts.settingsinforce import SCALED, SettingsInForce, State
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 UNKNOWN = code(
@@ -49,7 +50,7 @@ _USUAL_MM_S, _FULL, _LEAST_SHARE = 250.0, 100.0, 1e-3
 @legalising(unless=lambda context: not context.foreign or context.capabilities.carries_rules)
 def scaled_accelerations(program: ir.Program, context: Context) -> ir.Program:
     """Only between languages, and where one of them has the setting."""
-    if starts_on(context.source) or any(_sets(node, SETTING) for node in walk(*program.modules)):
+    if starts_on(context.source) or any(_sets(node, SETTING) for node in walk_for({"Assign"}, *program.modules)):
         program = _Shares(program, context).program()
     return _switched_off(program) if starts_on(context.target) else program
 
@@ -65,7 +66,7 @@ def _sets(node: object, *names: str) -> bool:
 
 def _switched_off(program: ir.Program) -> ir.Program:
     """The setting off at the beginning of the routines that a program may start with."""
-    if not any(isinstance(node, ir.Move) for node in walk(*program.modules)):
+    if not any(isinstance(node, ir.Move) for node in walk_for({"Move"}, *program.modules)):
         return program
     entries = moving_entries(program)
     setting = ir.Assign(ir.System(SETTING), ir.BoolLiteral(False))
@@ -91,7 +92,7 @@ class _Shares:
         self.reported: set[tuple[Code, object]] = set()
 
     def program(self) -> ir.Program:
-        moves = [node for node in walk(*self.source.modules) if isinstance(node, ir.Move)]
+        moves = [node for node in walk_for({"Move"}, *self.source.modules) if isinstance(node, ir.Move)]
         shares = {id(move): self.share(move) for move in moves}
         known = all(self.percents(move) is not None for move in moves)
         scaled = any(share not in (None, 1.0) for share in shares.values())
@@ -117,9 +118,15 @@ class _Shares:
         )
         said = any(
             _sets(node, UP, DOWN, SETTING) or (isinstance(node, ir.Move) and node.acceleration is not None)
-            for node in walk(*self.source.modules)
+            for node in walk_for({"Assign", "Move"}, *self.source.modules)
         )
-        timed = any(isinstance(node, _TIMED) for node in walk(*self.source.modules))
+        timed = any(
+            isinstance(node, _TIMED)
+            for node in walk_for(
+                {"DeclareInterrupt", "OrderInterrupt", "ControlInterrupt", "TaskControl", "Trigger"},
+                *self.source.modules,
+            )
+        )
         return bool(modal) and not said and not timed
 
     def share(self, move: ir.Move) -> float | None:

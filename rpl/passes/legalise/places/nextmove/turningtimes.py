@@ -11,12 +11,12 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -47,7 +47,9 @@ _PLACES = (ir.System("tool"), ir.System("base"))
 )
 def turning_times(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets whose moves say a time, but no turning speed, neither in the move nor as a setting."""
-    if not any(isinstance(one, ir.Move) and _turning_speed(one) is not None for one in walk(*program.modules)):
+    if not any(
+        isinstance(one, ir.Move) and _turning_speed(one) is not None for one in walk_for({"Move"}, *program.modules)
+    ):
         return program
     unchanged = unchanged_in(program)
 

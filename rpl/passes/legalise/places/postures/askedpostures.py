@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Record, Target, Value, component, pose_of, real
@@ -42,7 +43,7 @@ _STANDING = (ir.Nothing, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.LookAhead)
 @legalising(unless=lambda context: set(_POSTURES) & context.capabilities.system_variables, sees=("Move",))
 def asked_postures(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the settings; solved for the arm that the program was written for."""
-    if not any(isinstance(one, ir.Move) and _asked(one) for one in walk(*program.modules)):
+    if not any(isinstance(one, ir.Move) and _asked(one) for one in walk_for({"Move"}, *program.modules)):
         return program
     return _Asked(program, context).program()
 
@@ -56,7 +57,7 @@ class _Asked(Rewriter):
         self.written = JointsOfPlaces(program, context)
         arm, other = context.robot, context.to_robot
         self.arm = arm if other is None or other is arm else None
-        asked = [_asked(one).items() for one in walk(*program.modules) if isinstance(one, ir.Move)]
+        asked = [_asked(one).items() for one in walk_for({"Move"}, *program.modules) if isinstance(one, ir.Move)]
         self.varied = {name for name in _POSTURES if len({w for one in asked for n, w in one if n == name}) > 1}
         self.here: Any = None
         self.seen: Any = None

@@ -19,6 +19,7 @@ from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.fold import constant, real
 from rpl.passes.legalise.context import Arm, Context, array, rules_of
 from rpl.passes.legalise.facts.targetuses import Use, Uses
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.places.postures.families import changed_posture, differing
 from rpl.passes.legalise.places.postures.flagwrites import FlagFlow, FlagValues, only_turns
 from rpl.passes.legalise.places.postures.givenjoints import joint_values, with_joints
@@ -324,7 +325,7 @@ class _Configurations(Rewriter):
     @property
     def checked(self) -> bool:
         """Does the source's controller stop at flags that it cannot follow? (RAPID may be told not to.)"""
-        name, nodes = _CHECKS[0], walk(*self.source.modules)
+        name, nodes = _CHECKS[0], walk_for({"Assign"}, *self.source.modules)
         return not any(isinstance(one, ir.Assign) and one.target == ir.System(name) for one in nodes)
 
     @property

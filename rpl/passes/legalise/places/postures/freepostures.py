@@ -15,11 +15,11 @@ from typing import Any
 
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.whereabouts import Whereabouts
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Target, real
@@ -50,7 +50,7 @@ def free_postures(program: ir.Program, context: Context) -> ir.Program:
     if arm is None or can.carries_rules or not context.foreign or (other is not None and other is not arm):
         return program
     ours, theirs = registry.dialect(context.source).notation, registry.dialect(can.places.notation).notation
-    if ours is None or theirs is None or not any(_may_be_free(one) for one in walk(*program.modules)):
+    if ours is None or theirs is None or not any(_may_be_free(one) for one in walk_for({"Move"}, *program.modules)):
         return program
     return _Free(program, context, ours, theirs).program()
 

@@ -19,6 +19,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -45,7 +46,9 @@ def near_joints(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the function."""
     can = context.capabilities
     lacking = {_NEAR, _HERE} - can.functions
-    if not any(isinstance(one, ir.Builtin) and one.function in lacking for one in walk(*program.modules)):
+    if not any(
+        isinstance(one, ir.Builtin) and one.function in lacking for one in walk_for({"Builtin"}, *program.modules)
+    ):
         return program
     return _Solved(_direct(program, lacking), context).program()
 

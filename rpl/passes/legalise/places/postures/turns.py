@@ -19,6 +19,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, array
 from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.whereabouts import Joints, Stand, Whereabouts
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
@@ -46,7 +47,7 @@ _OTHER_TURN_DEG = 180.0  # what differs by more is another turn, though joints a
 )
 def told_turns(program: ir.Program, context: Context) -> ir.Program:
     """Only for arms that are named, and targets whose places tell no turns."""
-    if not any(isinstance(one, ir.Move) and _to_a_place(one) for one in walk(*program.modules)):
+    if not any(isinstance(one, ir.Move) and _to_a_place(one) for one in walk_for({"Move"}, *program.modules)):
         return program
     return _Turns(program, context).program()
 

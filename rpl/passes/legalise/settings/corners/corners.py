@@ -11,9 +11,9 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.settings.explicit import JOINT_SPEED_BLEND
@@ -34,7 +34,7 @@ _BRAKING_MM_S2 = 5000.0
 @legalising(unless=lambda context: context.capabilities.settings.of_moves)
 def corners(program: ir.Program, context: Context) -> ir.Program:
     """The program with corners that the target can measure."""
-    if not any(_foreign(node) for node in walk(*program.modules)):
+    if not any(_foreign(node) for node in walk_for({"Move"}, *program.modules)):
         return program
     return edit_all(program, _Corners(program, context).body)
 

@@ -13,6 +13,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -25,7 +26,9 @@ _UNUSED = ir.Aggregate(tuple((name, ir.RealLiteral(9e9, "9E9")) for name in ir.C
 @legalising(sees=("Field",))
 def copied_flags(program: ir.Program, context: Context) -> ir.Program:
     """Only for programs that copy the flags or external axes of a target."""
-    if not any(isinstance(node, ir.Field) and node.name in ("conf", "ext") for node in walk(*program.modules)):
+    if not any(
+        isinstance(node, ir.Field) and node.name in ("conf", "ext") for node in walk_for({"Field"}, *program.modules)
+    ):
         return program
     external = has_external_axes(program)
 

@@ -13,6 +13,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -27,7 +28,7 @@ _GIVEN = ("target_to_joints", "target_to_joints_near", "is_reachable")
 @legalising(unless=lambda context: _NAME in context.capabilities.system_variables, sees=(f"system {_NAME}",))
 def displacements(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without the system variable, where the program sets it."""
-    if not any(map(_sets, walk(*program.modules))):
+    if not any(map(_sets, walk_for({"Assign"}, *program.modules))):
         return program
     return _Displacements(program, context).program()
 

@@ -18,6 +18,7 @@ from rpl.ir.walk import walk
 from rpl.passes.capabilities import PlaceRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import root
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
@@ -44,7 +45,7 @@ Key = tuple[str, str]
 )
 def named_angles(program: ir.Program, context: Context) -> ir.Program:
     """Looks only; for targets that keep rotations."""
-    if any(_unusual(node) for node in walk(*program.modules)):
+    if any(_unusual(node) for node in walk_for({"Aggregate", "Assign"}, *program.modules)):
         _Angles(program, context).report()
     return program
 

@@ -17,6 +17,7 @@ from rpl.passes.capabilities import PlaceRule, Places
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.inforce import InForce
 from rpl.passes.legalise.facts.usage import usage_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.stages import legalising
 
@@ -33,7 +34,9 @@ def known_shifts(program: ir.Program, context: Context) -> ir.Program:
     """Not in the program's own language, which has an instruction for it. Only shifts that the reader keeps for the
     controller are looked at: they begin as none. One that nothing reads any more goes."""
     shifts = _shifts(program) & {name.lower() for name in rules_of(context.source).settings_data}
-    straight = any(isinstance(node, ir.Assign) and _turns_nothing(node.value) for node in walk(*program.modules))
+    straight = any(
+        isinstance(node, ir.Assign) and _turns_nothing(node.value) for node in walk_for({"Assign"}, *program.modules)
+    )
     if not shifts and not straight:
         return program
     moves = _Moves(program, shifts, context.capabilities.places)
@@ -75,7 +78,7 @@ def _shifts(program: ir.Program) -> frozenset[str]:
     """Variables (folded names) that hold shifts and that nothing but assignments of them and of no shift changes."""
     usage = usage_of(program)
     found: dict[str, bool] = {}
-    for node in walk(*program.modules):
+    for node in walk_for({"Assign"}, *program.modules):
         if isinstance(node, ir.Assign) and isinstance(node.target, ir.Name):
             name, shift = node.target.id.lower(), _shift(node.value)
             known = shift is not None and not _names(shift.frame) & usage.assigned
@@ -87,7 +90,7 @@ def _shifts(program: ir.Program) -> frozenset[str]:
 
 
 def _variables(program: ir.Program) -> list[ir.Variable]:
-    return [node for node in walk(*program.modules) if isinstance(node, ir.Variable)]
+    return [node for node in walk_for({"Variable"}, *program.modules) if isinstance(node, ir.Variable)]
 
 
 def _names(expression: ir.Expression | None) -> set[str]:

@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 _SEEN = frozenset(("current_target", "current_position"))
@@ -17,7 +18,7 @@ _MODAL = (ir.System("tool"), ir.System("base"))
 @legalising(unless=lambda context: not context.capabilities.settings.modal, sees=[f"function {one}" for one in _SEEN])
 def seen_half(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with modal motion, from programs that leave one of the two out."""
-    if not any(map(_is_half, walk(*program.modules))):
+    if not any(map(_is_half, walk_for({"Builtin"}, *program.modules))):
         return program
 
     def fitted(node: object) -> object:

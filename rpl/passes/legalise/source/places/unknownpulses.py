@@ -13,9 +13,10 @@ from typing import TypeGuard
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.pulsecounts import count_of
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 
 UNKNOWN = code(
@@ -77,7 +78,7 @@ def _is_counted(one: object) -> TypeGuard[ir.Variable]:
 def _places(program: ir.Program) -> set[str]:
     """Names that nothing but moves says, as where they go."""
     said, gone_to = Counter[str](), Counter[str]()
-    for node in walk(*program.modules):
+    for node in walk_for({"Name", "Move"}, *program.modules):
         match node:
             case ir.Name(id=name):
                 said[name.lower()] += 1

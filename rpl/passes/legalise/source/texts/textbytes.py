@@ -8,9 +8,9 @@ from typing import TypeGuard
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import TextRule
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
@@ -30,7 +30,7 @@ _WRITES, _READS = "number_bytes", "bytes_number"
 )
 def text_bytes(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without functions for bytes."""
-    first = next((node for node in walk(*program.modules) if _is_bytes(node)), None)
+    first = next((node for node in walk_for({"Builtin"}, *program.modules) if _is_bytes(node)), None)
     if first is None:
         return program
     if TextRule.PRINTABLE in context.capabilities.texts.rules:  # the writer guards the steps

@@ -18,6 +18,7 @@ from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.moveorder import pairs_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
@@ -51,7 +52,7 @@ _NO_ANGLES = frozenset(("x", "y", "z", "s", "t"))  # a place without angles keep
 @legalising(unless=lambda context: _MODE in context.capabilities.system_variables)
 def constant_orientations(program: ir.Program, context: Context) -> ir.Program:
     """The program whose paths end with the orientation that is written at their end."""
-    if not any(map(_constant, walk(program))):
+    if not any(map(_constant, walk_for({"Assign", "Move"}, program))):
         return program
     paths = _Paths.of(program, context)
 
@@ -97,10 +98,12 @@ class _Paths:
 
     @staticmethod
     def of(program: ir.Program, context: Context) -> _Paths:
-        changed = {node.target for node in walk(program) if isinstance(node, ir.Assign)}
+        changed = {node.target for node in walk_for({"Assign"}, program) if isinstance(node, ir.Assign)}
         still = {name: ir.System(name) for name in ("tool", "base") if ir.System(name) not in changed}
         found = _Paths(SettingsInForce.of(program, dict(rules_of(context.source).system_defaults)), dict(still))
-        splines = any(isinstance(node, ir.Spline) for node in walk(program))  # they stand between moves that are a pair
+        splines = any(
+            isinstance(node, ir.Spline) for node in walk_for({"Spline"}, program)
+        )  # they stand between moves that are a pair
         for pair in pairs_of(program):
             if pair.second is not None:
                 first = None if pair.stands and splines else pair.first

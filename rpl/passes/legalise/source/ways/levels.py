@@ -10,9 +10,10 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.library import common_library
@@ -61,7 +62,10 @@ def levels_to_distances(program: ir.Program, context: Context) -> ir.Program:
 
 def _computed(program: ir.Program, context: Context, levels: tuple[float, ...]) -> ir.Program:
     """Moves whose level the run chooses."""
-    if not any(isinstance(one, ir.Move) and isinstance(one.blend, ir.BlendLevel) for one in walk(*program.modules)):
+    if not any(
+        isinstance(one, ir.Move) and isinstance(one.blend, ir.BlendLevel)
+        for one in walk_for({"Move"}, *program.modules)
+    ):
         return program
     helpers, effects = common_library(context, {_CORNER: _text(levels)}), Effects(program)
 

@@ -14,12 +14,12 @@ from typing import Literal
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
 from rpl.passes.capabilities import PathRule
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, circle_through, rotation_of_vector, vector_of_rotation
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.taughtvalues import tell_written
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.places.partialplaces import may_move
 from rpl.passes.legalise.source.ways.curvepoints import AS_POINTS, SAME_CURVE_MM, apart, through_points
 from rpl.passes.rigid import Pose, Rotation, Vector
@@ -71,7 +71,7 @@ _Curve = tuple[Pose, list[Leg], list[list[Segment]]]
 
 def modes_set(program: ir.Program) -> set[str]:
     """The settings of circles' orientation and the like that a program sets anywhere."""
-    assigned = [node.target for node in walk(*program.modules) if isinstance(node, ir.Assign)]
+    assigned = [node.target for node in walk_for({"Assign"}, *program.modules) if isinstance(node, ir.Assign)]
     return {one.name for one in assigned if isinstance(one, ir.System) and one.name in _MODES}
 
 
