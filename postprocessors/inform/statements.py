@@ -7,8 +7,6 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
-from rpl.ir.walk import walk
-from rpl.passes.legalise.facts.effects import blocks
 from rpl.source import NOWHERE, Origin
 from rpl.writing.anywhere import Anywhere
 from rpl.writing.ledger import EmissionLedger
@@ -97,41 +95,17 @@ class Printer(StatementPrinter[str]):
     # ---- bodies
 
     def body(self, body: ir.Body, last: bool = False) -> None:
-        loose: list[ir.Trigger] = []  # actions on the path of the next move
         for at, statement in enumerate(body):
-            if isinstance(statement, ir.Trigger):
-                loose.append(statement)
-                continue
             if isinstance(statement, ir.WaitForMotion) and self.motion.stands:
                 self.comments_only(statement.origin)
                 self.ledger.merged(statement)
-                continue
-            if isinstance(statement, ir.Move) and _awaited(body, at):
-                stopped = replace(statement, blend=ir.BlendStop())
-                self.with_triggers(statement, loose, stopped)
-                loose = []
-                continue
-            if isinstance(statement, ir.Move) and loose:
-                self.with_triggers(statement, loose)
-                loose = []
                 continue
             if last and at == len(body) - 1 and isinstance(statement, ir.Return) and statement.value is None:
                 self.comments_only(statement.origin)
                 self.ledger.merged(statement)
                 continue
             self.statement(statement)
-        for trigger in loose:
-            self.statement(trigger)
         self.arrive()
-
-    def with_triggers(self, move: ir.Move, triggers: list[ir.Trigger], like: ir.Move | None = None) -> None:
-        """A move (or one like it) and the actions that stand before it."""
-        joined = replace(like or move, triggers=(*move.triggers, *triggers))
-        for trigger in triggers:
-            self.comments_only(trigger.origin)
-            self.ledger.merged(trigger)
-        self.ledger.merged(move)
-        self.statement(joined)
 
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""
@@ -496,37 +470,11 @@ class Printer(StatementPrinter[str]):
         self.put([f'MSG "{part}"' for part in parts], message.origin)
 
 
-# Routines that programs bring along and that only calculate.
-_CALCULATING = frozenset(("rpl_length", "rpl_min", "rpl_max", "rpl_trunc", "rpl_floor", "rpl_frame", "rpl_tool_offset"))
-
-
 def _no_way(origin: Origin) -> ir.Move:
     """A move by nothing that ends exactly: behind a corner that the robot still goes round it ends at the point."""
     nothing = ir.Aggregate(tuple((name, ir.RealLiteral(0.0)) for name in "xyzabc"))
     speed = ir.Speed(path=ir.RealLiteral(_SLOW_MM_S))
     return ir.Move("linear", nothing, speed=speed, relative="base", blend=ir.BlendStop(), origin=origin)
-
-
-def _awaited(body: ir.Body, at: int) -> bool:
-    """Does the program wait for the end of this move, with nothing but calculations of variables in front of that?"""
-    behind = (one for one in body[at + 1 :] if not _calculates(one))
-    return isinstance(next(behind, None), ir.WaitForMotion)
-
-
-def _calculates(statement: ir.Statement) -> bool:
-    """Neither signals, the controller's own variables nor the robot have a part in it."""
-    match statement:
-        case ir.Nothing():
-            return True
-        case ir.Assign() | ir.If():
-            inner = [one for body in blocks(statement) for one in body]
-        case ir.CallRoutine(name=name, dynamic=None) if name.lower() in _CALCULATING:
-            inner = []
-        case _:
-            return False
-    alone = not any(isinstance(one, ir.Signal | ir.System | ir.Call | ir.VendorValue) for one in walk(statement))
-    seen = any(isinstance(one, ir.Builtin) and one.function.startswith("current_") for one in walk(statement))
-    return alone and not seen and all(_calculates(one) for one in inner)
 
 
 def _plain(condition: ir.Expression) -> bool:

@@ -1,7 +1,8 @@
 """Jobs that were read and not changed: they are written as they stand in their files.
 
-Their texts are read anew; where that gives the same program, nothing has been rewritten since, and the texts say
-everything, also what the neutral program does not keep (dates, groups, points that nobody uses).
+Their texts are read anew; where that gives the same program (as it is given to the writer, behind the passes in front
+of it), nothing has been rewritten since, and the texts say everything, also what the neutral program does not keep
+(dates, groups, points that nobody uses).
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
 from rpl.project import read_sources
 from rpl.source import NOWHERE, Source
-from rpl.writing.target import OutputFile
+from rpl.writing.target import OutputFile, WriteContext
+
+from .passes import LAST
 
 _HEADER = "NPOS"  # every job has it, no module of another language
 
@@ -24,7 +27,14 @@ def _origins(module: ir.Module) -> list[Source]:
     return [one for one in dict.fromkeys(found) if one is not None]
 
 
-def unchanged(program: ir.Program) -> list[OutputFile] | None:
+def _read_anew(sources: list[Source], context: WriteContext) -> ir.Program:
+    program = read_sources(sources, "inform", Diagnostics()).program
+    for one in LAST:
+        program = one(program, context)
+    return program
+
+
+def unchanged(program: ir.Program, context: WriteContext) -> list[OutputFile] | None:
     """The files of a program that is exactly what its own jobs say; None for any other program."""
     sources: list[Source] = []
     kept: list[Source] = []
@@ -39,7 +49,7 @@ def unchanged(program: ir.Program) -> list[OutputFile] | None:
         if source not in sources:
             sources.append(source)
     sources += [one for one in dict.fromkeys(kept) if one not in sources]
-    if not sources or read_sources(sources, "inform", Diagnostics()).program != program:
+    if not sources or _read_anew(sources, context) != program:
         return None
     names = [PureWindowsPath(source.path).name for source in sources]
     if len({name.upper() for name in names}) < len(names):

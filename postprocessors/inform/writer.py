@@ -65,7 +65,7 @@ _MOVING = (ir.Move, ir.MoveExternal, ir.Spline, ir.Vendor, ir.Opaque)
 
 def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     """All jobs. Raises InternalError when the ledger finds a node that nobody accounted for."""
-    same = unchanged(program)
+    same = unchanged(program, context)
     if same is not None and not context.templates:
         return same
     ledger = EmissionLedger()

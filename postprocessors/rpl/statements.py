@@ -101,6 +101,8 @@ def statement_lines(statement: ir.Statement, indent: str) -> Iterator[str]:
             yield from headed(spline_head_text(statement), statement.origin, indent)
             yield from body_lines(body, inner)
             yield f"{indent}END SPLINE"
+        case ir.Instruction(parts=parts):
+            yield from body_lines(parts, indent)
         case _:
             yield from headed(line_text(statement), statement.origin, indent)
 

@@ -398,7 +398,7 @@ class OnError:
 @dataclass(frozen=True, slots=True)
 class Instruction:
     """Several statements that are one instruction of the controller that a program is written for. Only a pass right
-    in front of that target's writer makes it; RPL has no word for it. `text`: the instruction where it is known there,
+    in front of that target's writer makes it; RPL prints its parts. `text`: the instruction where it is known there,
     or empty; the writer puts it together then from the parts. Each part is accounted for by itself."""
 
     text: str

@@ -6,11 +6,13 @@ from __future__ import annotations
 from rpl.passes.legalise.stages import Placed, again
 
 from .dialogs import number_dialogs
+from .exactends import exact_ends
 from .flagbytes import flags_in_bytes
 from .framenumbers import frame_numbers
 from .groupsizes import groups_in_sizes
 from .jointways import stand_before_ways
 from .longconditions import short_conditions
+from .moveactions import actions_of_moves
 from .shiftedpoints import shifted_points
 from .watches import counted_watches
 
@@ -25,4 +27,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(again(short_conditions, "opposites of conditions are longer"), "control", behind="steps again"),
     Placed(number_dialogs, "statements", behind="decide_logic"),
 )
-LAST = (flags_in_bytes,)
+LAST = (flags_in_bytes, actions_of_moves, exact_ends)
