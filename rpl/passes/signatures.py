@@ -7,6 +7,17 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 
+# Functions that see the robot with a tool and in a frame -> where these stand among the arguments.
+PLACES: dict[str, tuple[int, int]] = {
+    "current_target": (0, 1),
+    "current_position": (0, 1),
+    "joints_to_target": (1, 2),
+    "target_to_joints": (1, 2),
+    "target_to_joints_near": (2, 3),
+    "is_reachable": (2, 3),
+}
+KINEMATICS = ("joints_to_target", "target_to_joints", "target_to_joints_near", "is_reachable")
+
 
 @dataclass(slots=True)
 class Layout:

@@ -5,15 +5,25 @@ from __future__ import annotations
 from rpl.passes.legalise.stages import Placed
 
 from .constants import constant_data
+from .errornames import name_errors
+from .errornumbers import error_numbers
+from .explicit import modal_to_explicit
 from .finestops import fine_stops
+from .fullzones import full_zones
 from .motiondata import named_motion_data
 from .placedata import places_as_targets
+from .tooldata import tool_data
 from .traps import priorities_to_traps
 
 PASSES: tuple[Placed, ...] = (
     Placed(places_as_targets, "source", behind="rotation_vectors"),
     Placed(constant_data, "source", behind="rotation_vectors"),
+    Placed(error_numbers, "errors", behind="interrupt_places"),
     Placed(priorities_to_traps, "interrupts", behind="interrupts"),
+    Placed(modal_to_explicit, "settings", behind="corner_leads"),
+    Placed(full_zones, "settings", behind="corner_leads"),
+    Placed(tool_data, "settings", behind="corner_leads"),
     Placed(named_motion_data, "settings", behind="stand_first"),
     Placed(fine_stops, "settings", behind="stand_first"),
+    Placed(name_errors, "storage", before="ahead_readings"),
 )

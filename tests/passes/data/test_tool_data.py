@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
+from postprocessors.rapid.passes.explicit import modal_to_explicit
+from postprocessors.rapid.passes.tooldata import tool_data
 from rpl import ir
 from rpl.cell import parse_cell
-from rpl.passes.legalise.settings.modal import modal_to_explicit
-from rpl.passes.legalise.settings.tooldata import tool_data
 from rpl.simulation import run_program
 
 from .executed import EVERYTHING, context, passed, read, same, shown

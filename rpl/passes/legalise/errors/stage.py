@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from rpl.passes.legalise.errors.bookkeeping import without_bookkeeping
 from rpl.passes.legalise.errors.declaredvalues import declared_values
-from rpl.passes.legalise.errors.errornumbers import error_numbers
 from rpl.passes.legalise.errors.errortexts import error_texts
 from rpl.passes.legalise.errors.interruptplaces import interrupt_places
 from rpl.passes.legalise.errors.knowncalls import known_calls
@@ -23,7 +22,6 @@ STAGE = Stage(
     "errors",
     (
         interrupt_places,
-        error_numbers,
         error_texts,
         link_prelude,
         apart_from_neutral_records,

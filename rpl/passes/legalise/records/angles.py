@@ -23,8 +23,8 @@ from rpl.passes.legalise.rewriting.formulas import composed, minus, number, plus
 from rpl.passes.legalise.rewriting.library import Library
 from rpl.passes.legalise.rewriting.stopping import stopped
 from rpl.passes.legalise.rewriting.wanted import Kind, WantedRewriter
-from rpl.passes.legalise.settings.tooldata import KINEMATICS
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.signatures import KINEMATICS
 from rpl.passes.typewords import component_names, type_word
 from rpl.passes.values import Value, pose_of
 

@@ -14,9 +14,9 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.settings.explicit import Modal
-from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.signatures import PLACES
 
 _INTO_JOINTS = frozenset(("target_to_joints", "target_to_joints_near", "is_reachable"))
 _SEEN = frozenset(("current_target", "current_position", "joints_to_target"))

@@ -17,8 +17,8 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
-from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.signatures import PLACES
 
 COORDINATED = code(
     "coordinated-move-lost",

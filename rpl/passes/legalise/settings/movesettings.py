@@ -21,11 +21,11 @@ from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.rewriting.shadows import Shadow, only_served
 from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
 from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
-from rpl.passes.legalise.settings.modal import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
-from rpl.passes.legalise.settings.tooldata import PLACES
+from rpl.passes.legalise.settings.words import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.signatures import PLACES
 
 _WORLD = ir.System("null_frame")
 # Settings that such a target has no word for, so that they cannot stay modal either.

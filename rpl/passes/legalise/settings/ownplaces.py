@@ -17,9 +17,9 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.shadows import NO_SHIFT, Shadow, with_shadows
-from rpl.passes.legalise.settings.tooldata import PLACES
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.signatures import PLACES
 
 # Solvers that a move may have around its goal (`configurations`): the move says with which tool.
 _GOALS = ("target_to_joints", "target_to_joints_near")

@@ -12,10 +12,9 @@ from rpl.passes.legalise.settings.corners.cornersteps import corner_steps
 from rpl.passes.legalise.settings.corners.keptcorners import kept_corners
 from rpl.passes.legalise.settings.corners.overlapping import left_out_moves
 from rpl.passes.legalise.settings.corners.standing import stand_first
-from rpl.passes.legalise.settings.corners.turningzones import full_zones, reduced_zones
+from rpl.passes.legalise.settings.corners.turningzones import reduced_zones
 from rpl.passes.legalise.settings.explicit import explicit_to_modal
 from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
-from rpl.passes.legalise.settings.modal import modal_to_explicit
 from rpl.passes.legalise.settings.movesahead import moves_ahead
 from rpl.passes.legalise.settings.movesettings import settings_at_moves
 from rpl.passes.legalise.settings.onemove import settings_of_one_move
@@ -23,7 +22,6 @@ from rpl.passes.legalise.settings.ownplaces import own_places
 from rpl.passes.legalise.settings.scaledspeeds import scaled_override
 from rpl.passes.legalise.settings.speeds import fit_speeds
 from rpl.passes.legalise.settings.strengths import strengths
-from rpl.passes.legalise.settings.tooldata import tool_data
 from rpl.passes.legalise.settings.usualaccelerations import usual_accelerations
 from rpl.passes.legalise.stages import Clause, Stage
 
@@ -40,9 +38,6 @@ STAGE = Stage(
         accelerations_of_moves,
         settings_of_one_move,
         corner_leads,
-        modal_to_explicit,
-        full_zones,
-        tool_data,
         own_places,
         mixed_speeds,
         corner_steps,

@@ -6,7 +6,6 @@ from rpl.passes.legalise.errors.bookkeeping import without_bookkeeping
 from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.storage.aheadreadings import ahead_readings
 from rpl.passes.legalise.storage.begunanew import begun_anew
-from rpl.passes.legalise.storage.errorcodes import name_errors
 from rpl.passes.legalise.storage.labelled import labels_as_remarks
 from rpl.passes.legalise.storage.madeplaces import place_made_statements
 from rpl.passes.legalise.storage.modulepoints import points_of_modules
@@ -20,7 +19,6 @@ from rpl.passes.legalise.storage.unused import drop_idle_data, drop_unused
 STAGE = Stage(
     "storage",
     (
-        name_errors,
         ahead_readings,
         said_once,
         unread_flags,

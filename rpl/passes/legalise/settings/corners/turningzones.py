@@ -8,13 +8,12 @@ reduce it. Only what stands in constants can be told.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.columns import Stretch, by_row, chosen, column_of, in_next_row, in_row
+from rpl.ir.columns import Stretch, column_of, in_next_row, in_row
 from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context, rules_of
@@ -38,8 +37,7 @@ EXTENDED = code(
 )
 # Smaller turns (degrees) beside a zone make no difference worth telling.
 _TOLD_TURN = 1.0
-_NO_WAY, _NO_TURN = 1e-3, 1e-3
-_ROUNDING = 1e-6  # what rounding may add to a size, deg or thousandths
+NO_WAY, NO_TURN = 1e-3, 1e-3
 
 
 @legalising(
@@ -51,7 +49,7 @@ def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
     """For targets without zones: zones have the size to which the source's controller reduces them."""
     told: set[str] = set()
 
-    def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
+    def change(zone: Zone, beside: list[Leg]) -> ir.Blend:
         limits = [limit for leg in beside for limit in leg.limits(zone)]
         size = min(limits, default=zone.path)
         if size < zone.path - 1e-6:
@@ -59,60 +57,16 @@ def reduced_zones(program: ir.Program, context: Context) -> ir.Program:
             context.diagnostics.report(REDUCED, zone.move.origin, path=zone.path, size=size)
             return replace(zone.blend, distance=ir.RealLiteral(size))
         larger = size > zone.path + 1e-6 and not told
-        if larger and any(leg.turn > _TOLD_TURN for leg in beside if leg.way > _NO_WAY):
+        if larger and any(leg.turn > _TOLD_TURN for leg in beside if leg.way > NO_WAY):
             told.add("extended")
             context.diagnostics.report(EXTENDED, zone.move.origin, extended=float(f"{size:.6g}"), path=zone.path)
         return zone.blend
 
-    return _rewritten(program, change)
-
-
-@legalising(
-    unless=lambda context: (
-        "ZoneType" not in context.capabilities.types or "ZoneType" in rules_of(context.source).components
-    )
-)
-def full_zones(program: ir.Program, context: Context) -> ir.Program:
-    """For targets with zones: zones made of corners that have their size whatever the tool does keep it."""
-
-    def change(zone: _Zone, beside: list[_Leg]) -> ir.Blend:
-        value = zone.blend.zone
-        old = dict(value.entries) if isinstance(value, ir.Aggregate) else {}
-        if not isinstance(value, ir.Aggregate) or not {"path", "rotation", "rotation_path"} <= old.keys():
-            return zone.blend
-        needed = _needed(zone.path, tuple(leg.way for leg in beside), tuple(leg.turn for leg in beside))
-        larger = _exceeds(needed, zone.rotation)
-        new: dict[str | None, ir.Expression] = {
-            "rotation": chosen(larger, ir.RealLiteral(_upwards(needed)), old["rotation"]),
-            "rotation_path": chosen(larger, old["path"], old["rotation_path"]),
-        }
-        if all(new[name] is old[name] for name in new):
-            return zone.blend
-        entries = tuple((name, new.get(name, part)) for name, part in value.entries)
-        return replace(zone.blend, zone=replace(value, entries=entries))
-
-    return _rewritten(program, change)
-
-
-@by_row
-def _needed(path: float, ways: tuple[float, ...], turns: tuple[float, ...]) -> float:
-    """The angle by which the tool turns in the corner."""
-    legs = zip(ways, turns, strict=True)
-    return max((min(path / way, 0.5) * turn for way, turn in legs if way > _NO_WAY and turn > _NO_TURN), default=0.0)
-
-
-@by_row
-def _exceeds(angle: float, limit: float) -> float:
-    return float(angle > limit + _ROUNDING)
-
-
-@by_row
-def _upwards(angle: float) -> float:
-    return math.ceil(angle * 1000.0 - _ROUNDING) / 1000.0
+    return with_zones(program, change)
 
 
 @dataclass(frozen=True, slots=True)
-class _Zone:
+class Zone:
     """A move with a zone that is constant; sizes in mm and degrees."""
 
     move: ir.Move
@@ -123,24 +77,24 @@ class _Zone:
 
 
 @dataclass(frozen=True, slots=True)
-class _Leg:
+class Leg:
     """A move from one constant place to another: mm, degrees."""
 
     way: float
     turn: float
 
-    def limits(self, zone: _Zone) -> list[float]:
+    def limits(self, zone: Zone) -> list[float]:
         """The sizes (mm) to which the turn reduces a zone."""
-        if self.turn <= _NO_TURN or self.way <= _NO_WAY:
+        if self.turn <= NO_TURN or self.way <= NO_WAY:
             return []
         by_angle = [zone.rotation / self.turn * self.way] if zone.rotation > 0.0 else []
         return [max(zone.rotation_path, zone.path), *by_angle]
 
 
-_Change = Callable[[_Zone, list[_Leg]], ir.Blend]
+_Change = Callable[[Zone, list[Leg]], ir.Blend]
 
 
-def _rewritten(program: ir.Program, change: _Change) -> ir.Program:
+def with_zones(program: ir.Program, change: _Change) -> ir.Program:
     scopes = ProgramScope(program)
     return edit_each(program, lambda module, one: edit_bodies(one, _Bodies(scopes.routine(module, one), change).body))
 
@@ -177,8 +131,8 @@ class _Open:
     """A move with a zone, of which the way behind it is not known yet. leg: the way to it."""
 
     index: int
-    zone: _Zone
-    leg: _Leg | None
+    zone: Zone
+    leg: Leg | None
     place: _Place | None
 
 
@@ -212,7 +166,7 @@ class _Bodies:
             self.close(done, open, None)
         return body if all(new is old for new, old in zip(done, body, strict=True)) else tuple(done)
 
-    def close(self, done: list[ir.Statement], open: _Open, leg: _Leg | None) -> None:
+    def close(self, done: list[ir.Statement], open: _Open, leg: Leg | None) -> None:
         if leg is not None and open.place is not None and open.place.stretch is not None:
             leg = _leg(open.place, open.place.in_next_row(1))
         blend = self.change(open.zone, [one for one in (open.leg, leg) if one is not None])
@@ -225,7 +179,7 @@ class _Bodies:
         pose = pose_of(constant(move.target, self.scope))
         return None if pose is None else _Place(pose, (move.tool, move.frame))
 
-    def zone(self, move: ir.Move) -> _Zone | None:
+    def zone(self, move: ir.Move) -> Zone | None:
         blend = move.blend
         if not isinstance(blend, ir.BlendZone):
             return None
@@ -235,15 +189,15 @@ class _Bodies:
         path = constant_number(blend.distance, self.scope) if blend.distance is not None else value.part("path")
         sizes = [path, value.part("rotation_path"), value.part("rotation")]
         numbers = [float(size) for size in sizes if isinstance(size, int | float)]
-        return _Zone(move, blend, *numbers) if len(numbers) == 3 and numbers[0] > 0.0 else None
+        return Zone(move, blend, *numbers) if len(numbers) == 3 and numbers[0] > 0.0 else None
 
 
-def _leg(start: _Place | None, end: _Place | None) -> _Leg | None:
+def _leg(start: _Place | None, end: _Place | None) -> Leg | None:
     if start is None or end is None or start.frames != end.frames:
         return None
     way = end.pose.position.plus(start.pose.position, -1.0).length
     turn = start.pose.rotation.inverse.then(end.pose.rotation).angle
-    return _Leg(way, turn)
+    return Leg(way, turn)
 
 
-__all__ = ["full_zones", "reduced_zones"]
+__all__ = ["NO_TURN", "NO_WAY", "Leg", "Zone", "reduced_zones", "with_zones"]

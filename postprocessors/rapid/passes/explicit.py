@@ -1,4 +1,4 @@
-"""Modal motion to explicit motion, for targets whose moves name their tool, frame, speed and zone (RAPID).
+"""Modal motion to explicit motion: RAPID's moves name their tool, frame, speed and zone.
 
 The modal state becomes global data of the target's own types: setting a modal variable sets a component, and each move
 names the data. Where the value at a move is a known constant, the move names the constant. What a target cannot say in
@@ -21,21 +21,21 @@ from rpl.passes.legalise.places.circles import has_arcs
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import with_data
 from rpl.passes.legalise.settings.carriedframes import ROOT, UNIT
-from rpl.passes.legalise.settings.tooldata import PLACES, tool_of, work_object_of
+from rpl.passes.legalise.settings.words import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT, ZONE_PROPORTIONS
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
+from rpl.passes.signatures import PLACES
 from rpl.passes.typing import type_of
 from rpl.source import Origin
+
+from .tooldata import tool_of, work_object_of
 
 JOINT_SPEED = code(
     "approximated-joint-speed",
     Severity.WARNING,
     "joint speed in percent has no counterpart; {percent} percent is written as {factor:g} mm/s a percent",
-)
-JOINT_BLEND = code(
-    "approximated-blend", Severity.WARNING, "this blend has no exact counterpart; it is written as a zone of {size}"
 )
 TURNING = code(
     "usual-turning-speed",
@@ -44,13 +44,6 @@ TURNING = code(
     "the path",
     "where a move turns much, give it a slower speed",
 )
-DROPPED = code(
-    "dropped-setting",
-    Severity.WARNING,
-    "the target has no setting for {name}; it is left out",
-    several="{count} settings have no counterpart and are left out: [{name}]",
-)
-
 UNIT_NAME = code(
     "mechanism-name",
     Severity.WARNING,
@@ -68,23 +61,6 @@ _USUAL_TURN_DEG_S = 500.0
 # Below it, deg/s, somebody wants slow turns; controllers and their start routines set more.
 _CHOSEN_TURN_DEG_S = 100.0
 _STANDARD_EXTERNAL = (ir.RealLiteral(5000.0), ir.RealLiteral(1000.0))
-# Values with which a dropped setting says what the target does anyway.
-USUAL = {
-    "orientation_mode": "variable",
-    "circle_orientation": "base",
-    "path_limit_rule": "constant",
-    "interpolation": "base",
-}
-DROPPED_SETTINGS = frozenset(
-    {
-        *("path_acceleration", "swivel_acceleration", "twist_acceleration", "joint_acceleration", "path_jerk"),
-        *("external_speed", "external_acceleration", "blend_rotation", "blend_speed", "orientation_mode"),
-        *("circle_orientation", "singular_rule", "path_limit_rule", "advance", "load", "interpolation"),
-        *("end_tolerance", "deceleration_percent"),
-    }
-)
-
-
 _OWN_SETTINGS = DROPPED_SETTINGS | {UNIT, ROOT}
 
 
@@ -114,9 +90,9 @@ _KINDS: dict[str, tuple[ir.Type, str, str]] = {
 }
 
 
-@legalising(unless=lambda context: context.capabilities.settings.modal)
+@legalising()
 def modal_to_explicit(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without modal motion and sources that have it."""
+    """Tool, frame, speed and zone that are set become data that each move names."""
     worker = _Explicit(program, context)
     program = worker.without_dead_settings(edit_each(program, worker.routine))
     declarations = worker.declarations()
@@ -493,17 +469,6 @@ def _set_in_parts(program: ir.Program) -> Iterator[str]:
         match node:
             case ir.Assign(target=ir.Field(base=ir.Name(id=name))):
                 yield name
-
-
-def says(value: ir.Expression, word: str) -> bool:
-    """Is it this mode word?"""
-    return isinstance(value, ir.EnumLiteral | ir.TextLiteral | ir.Name) and word == _word(value)
-
-
-def _word(value: ir.EnumLiteral | ir.TextLiteral | ir.Name) -> str:
-    match value:
-        case ir.EnumLiteral(member=word) | ir.TextLiteral(value=word) | ir.Name(id=word):
-            return word.lower()
 
 
 def _number(value: ir.Expression) -> ir.Expression | None:

@@ -1,4 +1,4 @@
-"""Poses that stand for tools and frames as tool and work object data, for targets whose moves name such data.
+"""Poses that stand for tools and frames as tool and work object data, as RAPID's moves name it.
 
 Languages that keep tools and user frames as plain poses (numbered registers, frames of an interpreter) name them in a
 move, or in a function that asks where the robot stands. Global data that does so becomes a record with the pose inside:
@@ -20,18 +20,8 @@ from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
+from rpl.passes.signatures import PLACES
 from rpl.passes.values import pose_of
-
-# Functions that see the robot with a tool and in a frame -> where these stand among the arguments.
-PLACES: dict[str, tuple[int, int]] = {
-    "current_target": (0, 1),
-    "current_position": (0, 1),
-    "joints_to_target": (1, 2),
-    "target_to_joints": (1, 2),
-    "target_to_joints_near": (2, 3),
-    "is_reachable": (2, 3),
-}
-KINEMATICS = ("joints_to_target", "target_to_joints", "target_to_joints_near", "is_reachable")
 
 _ZERO = ir.RealLiteral(0.0)
 _NO_TURN = ir.Aggregate(
@@ -84,9 +74,9 @@ _TOOL = _Kind(ir.ToolType(), "frame", "tool")
 _FRAME = _Kind(ir.WorkObjectType(), "user_frame", "wobj")
 
 
-@legalising(unless=lambda context: context.capabilities.settings.bare is None)
+@legalising()
 def tool_data(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose moves need records as tool and frame."""
+    """Tools and frames of moves are records (`tooldata`, `wobjdata`)."""
     worker = _ToolData(program, context)
     done = worker.program()
     if not worker.added:

@@ -20,9 +20,9 @@ from rpl.passes.legalise.stages import legalising
 _NUMBER = ir.System("error_number")
 
 
-@legalising(unless=lambda context: not context.capabilities.errors.handlers, sees=("Raise", "System", "Handler"))
+@legalising(sees=("Raise", "System", "Handler"))
 def error_numbers(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets with error handlers of their own, whose numbers are not the source's."""
+    """RAPID numbers errors otherwise than the source does."""
     theirs = rules_of(context.target).errors
     numbers = {name: number for name, number in rules_of(context.source).errors.items() if spelled_among(name, theirs)}
     return _Named(program, context, numbers).program() if numbers else program

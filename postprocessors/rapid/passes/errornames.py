@@ -16,9 +16,9 @@ from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 
 
-@legalising(unless=lambda context: not context.capabilities.errors.handlers)
+@legalising()
 def name_errors(program: ir.Program, context: Context) -> ir.Program:
-    """For targets with error handlers: the names of errors are the target's, which defines them itself."""
+    """The names of errors are those that RAPID defines itself."""
     ours, theirs = rules_of(context.source).errors, rules_of(context.target).errors
     linked = [one for module in program.modules if is_linked(module, context) for one in module.declarations]
     errors = {one.name: one for one in linked if isinstance(one, ir.Variable) and one.name in ours}
