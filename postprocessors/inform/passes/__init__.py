@@ -19,7 +19,7 @@ from .watches import counted_watches
 PASSES: tuple[Placed, ...] = (
     Placed(counted_watches, "io", behind="timers_to_clocks"),
     Placed(groups_in_sizes, "io", behind="shared_groups_to_bits"),
-    Placed(again(groups_in_sizes, "some have their numbers by now"), "io", behind="groups_to_bits"),
+    Placed(again(groups_in_sizes, "some have their numbers by now"), "io", behind="named_numbers"),
     Placed(stand_before_ways, "settings", behind="reduced_zones"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(shifted_points, "settings", behind="stand_first"),

@@ -6,6 +6,7 @@ from __future__ import annotations
 from rpl.passes.legalise.stages import Placed
 
 from .arguments import arguments_in_registers
+from .bitgroups import groups_to_bits
 from .components import read_components
 from .composition import compositions
 from .exactends import exact_ends
@@ -23,6 +24,7 @@ from .zeroplaces import zero_places
 
 PASSES: tuple[Placed, ...] = (
     Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
+    Placed(groups_to_bits, "io", behind="named_numbers"),
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
     Placed(places_of_moves, "settings", behind="stand_first"),
     Placed(frame_numbers, "settings", behind="stand_first"),

@@ -5,12 +5,14 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
+from .brakedmoves import braked_moves
 from .broughtvalues import brought_values
 from .onenamespace import one_namespace
 from .reactionsearches import reaction_searches
 
 PASSES: tuple[Placed, ...] = (
-    Placed(reaction_searches, "searches", behind="searches"),
+    Placed(reaction_searches, "searches", before="search_parts"),
+    Placed(braked_moves, "interrupts", behind="interrupts"),
     Placed(brought_values, "control", behind="functions_to_procedures"),
 )
 LAST = (one_namespace,)

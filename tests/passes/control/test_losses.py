@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
+from postprocessors.krl.passes.searches import searches
 from rpl import ir
 from rpl.passes.capabilities import Motion, SearchResult, SettingRule, Settings, Tasks
 from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.refusals import refuse
-from rpl.passes.legalise.searches.searches import searches
 from rpl.passes.legalise.searches.searchparts import search_parts
 from rpl.passes.legalise.statements.structure import labels_to_structure
 

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from postprocessors.tp.passes.bitgroups import groups_to_bits
 from rpl import ir
 from rpl.cell import parse_cell
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import GroupRule
-from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
+from rpl.passes.legalise.io.bitgroups import shared_groups_to_bits
 from rpl.passes.legalise.io.signals import number_signals
 from rpl.proof.prove import prove_programs
 from rpl.proof.wiring import wired_bits

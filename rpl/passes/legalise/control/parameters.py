@@ -21,9 +21,9 @@ from rpl.passes.legalise.rewriting.arraycopies import array_copy
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import goes_on, inside
+from rpl.passes.legalise.rewriting.places import fixed_place, is_open
 from rpl.passes.legalise.rewriting.support import with_support
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.legalise.statements.references import fixed_place, is_open
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 

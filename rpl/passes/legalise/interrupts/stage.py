@@ -4,11 +4,9 @@ tasks again, because an interrupt may have become one.
 
 from __future__ import annotations
 
-from rpl.passes.legalise.interrupts.brakedmoves import braked_moves
 from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers
 from rpl.passes.legalise.interrupts.clocks.programtimes import program_times
 from rpl.passes.legalise.interrupts.clocks.routineclocks import clocks_of_routines
-from rpl.passes.legalise.interrupts.heldmotion import held_motion
 from rpl.passes.legalise.interrupts.interrupts import interrupts
 from rpl.passes.legalise.interrupts.nestedinterrupts import nested_interrupts
 from rpl.passes.legalise.interrupts.onceonly import reactions_once, rearmed_reactions
@@ -33,11 +31,9 @@ STAGE = Stage(
         reactions_once,
         nested_interrupts,
         stored_paths,
-        held_motion,
         reactions,
         resumes,
         interrupts,
-        braked_moves,
         rearmed_reactions,
         static_variables,
         task_references,

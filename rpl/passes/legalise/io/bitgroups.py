@@ -1,4 +1,4 @@
-"""Groups of signals bit by bit, for targets that have single signals only (or groups that the controller declares).
+"""Groups of signals bit by bit, where a target cannot say them as they are.
 
 Where signals have names, a named group and the names of its bits are different signals: groups that overlap what else
 is used become bits.
@@ -11,19 +11,8 @@ from rpl.passes.capabilities import GroupRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
-from rpl.passes.legalise.rewriting.signalgroups import Group, GroupsAsBits, GroupsInParts, group_of, is_computed
+from rpl.passes.legalise.rewriting.signalgroups import Group, GroupsInParts, group_of, is_computed
 from rpl.passes.legalise.stages import legalising
-
-
-@legalising(unless=lambda context: GroupRule.FREE in context.capabilities.io.groups)
-def groups_to_bits(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that cannot name a group by its first and last signal (the numbers of some have been given by
-    now)."""
-
-    def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, GroupsAsBits(editor).body)
-
-    return edit_routines(program, context, work)
 
 
 @legalising()

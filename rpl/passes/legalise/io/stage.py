@@ -6,7 +6,7 @@ that are kept make data; remarks of declarations come first, because clocks leav
 from __future__ import annotations
 
 from rpl.passes.legalise.io.analogunits import analog_units
-from rpl.passes.legalise.io.bitgroups import groups_to_bits, shared_groups_to_bits
+from rpl.passes.legalise.io.bitgroups import shared_groups_to_bits
 from rpl.passes.legalise.io.declaredremarks import declared_remarks
 from rpl.passes.legalise.io.flagdata import flags_as_data
 from rpl.passes.legalise.io.keptsettings import kept_settings
@@ -31,7 +31,6 @@ STAGE = Stage(
         name_signals,
         number_signals,
         named_numbers,
-        groups_to_bits,
     ),
     Clause(
         system="timer_positive",

@@ -5,8 +5,6 @@ from __future__ import annotations
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import InterruptRule
-from rpl.passes.legalise.interrupts.brakedmoves import BRAKED
-from rpl.passes.legalise.interrupts.heldmotion import STAYS
 from rpl.passes.legalise.interrupts.identities import ASKED, ORDERED, SEVERAL
 from rpl.passes.legalise.places.nextmove.queuedwaits import PAUSED_TIMED
 from rpl.passes.legalise.records.arcdistances import STRAIGHT as COMPUTED_ON_ARC
@@ -19,7 +17,7 @@ from rpl.passes.legalise.source.rates import LOST as RATE
 from rpl.passes.legalise.source.ways.constantorientations import FIXED
 from rpl.passes.legalise.source.ways.constantorientations import LOST as KEPT
 
-__all__ = ["MOTION"]
+__all__ = ["BRAKED", "MOTION", "STAYS"]
 
 INTERRUPT = code(
     "interrupt-lost",
@@ -40,6 +38,21 @@ ALONE = code(
     Severity.LOSS,
     "the target holds back all interrupts or none, not one alone",
     "switch the interrupt off here, or let its routine ask a variable that is set here",
+    stops=True,
+)
+BRAKED = code(
+    "braked-move-lost",
+    Severity.LOSS,
+    "{action} brakes the robot in the middle of a move that goes on behind it; the target's brake drops the move",
+    "let the move end at the condition, or drop it by a word of its own and command what is to follow",
+    stops=True,
+)
+STAYS = code(
+    "motion-stays-stopped",
+    Severity.LOSS,
+    "{routine} stops the robot, and lets it go on in a branch, in another routine or before it has ended: on the target"
+    " it goes on when the interrupt routine ends",
+    "start the motion again in the routine that stops it, behind everything that takes time",
     stops=True,
 )
 _INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))

@@ -4,15 +4,11 @@ by handlers and it may raise errors of the source; and before places, because wh
 
 from __future__ import annotations
 
-from rpl.passes.legalise.searches.searches import searches
 from rpl.passes.legalise.searches.searchparts import search_parts
 from rpl.passes.legalise.stages import Clause, Stage
 
 STAGE = Stage(
     "searches",
-    (
-        searches,
-        search_parts,
-    ),
+    (search_parts,),
     Clause(further=frozenset(("result of a search",))),
 )

@@ -17,7 +17,6 @@ from rpl.passes.legalise.settings.explicit import explicit_to_modal
 from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.settings.movesahead import moves_ahead
 from rpl.passes.legalise.settings.movesettings import settings_at_moves
-from rpl.passes.legalise.settings.onemove import settings_of_one_move
 from rpl.passes.legalise.settings.ownplaces import own_places
 from rpl.passes.legalise.settings.scaledspeeds import scaled_override
 from rpl.passes.legalise.settings.speeds import fit_speeds
@@ -36,7 +35,6 @@ STAGE = Stage(
         corners,
         reduced_zones,
         accelerations_of_moves,
-        settings_of_one_move,
         corner_leads,
         own_places,
         mixed_speeds,

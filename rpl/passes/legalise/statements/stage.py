@@ -14,7 +14,6 @@ from rpl.passes.legalise.statements.messages import message_lines, senders_as_te
 from rpl.passes.legalise.statements.polling import poll_waits
 from rpl.passes.legalise.statements.pulsedoutputs import pulsed_outputs
 from rpl.passes.legalise.statements.pulselevels import pulse_levels
-from rpl.passes.legalise.statements.references import references_as_copies
 from rpl.passes.legalise.statements.restingwaits import resting_waits
 from rpl.passes.legalise.statements.seldomlooks import seldom_looks
 from rpl.passes.legalise.statements.structure import labels_to_structure
@@ -38,7 +37,6 @@ STAGE = Stage(
         senders_as_texts,
         rewrite_calls,
         split_messages,
-        references_as_copies,
         again(fit_loops, "loops over choices count with them, and these become numbers next"),
         enums_to_constants,
     ),

@@ -5,7 +5,6 @@ from __future__ import annotations
 from rpl.passes.legalise.errors.bookkeeping import without_bookkeeping
 from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.storage.aheadreadings import ahead_readings
-from rpl.passes.legalise.storage.begunanew import begun_anew
 from rpl.passes.legalise.storage.labelled import labels_as_remarks
 from rpl.passes.legalise.storage.madeplaces import place_made_statements
 from rpl.passes.legalise.storage.modulepoints import points_of_modules
@@ -24,7 +23,6 @@ STAGE = Stage(
         unread_flags,
         again(without_bookkeeping, "errors and conditions of handlers are settled behind it"),
         drop_unused,
-        begun_anew,
         points_of_modules,
         labels_as_remarks,
         one_spelling,

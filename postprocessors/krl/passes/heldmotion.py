@@ -1,5 +1,5 @@
-"""Trap routines that stop the robot on its path and let it go on (RAPID StopMove .. StartMove), for targets that know
-no such start, but whose robot goes on when the routine ends that has braked it (KRL).
+"""Trap routines that stop the robot on its path and let it go on (RAPID StopMove .. StartMove): KRL knows no such
+start, but its robot goes on when the routine ends that has braked it.
 
 The start is left out where it is the last step of the trap routine that takes time, and so is the pair that puts the
 path aside in between (StorePath .. RestoPath). Every other stop is refused: the robot would go on at another time.
@@ -8,13 +8,12 @@ path aside in between (StorePath .. RestoPath). Every other stop is refused: the
 from __future__ import annotations
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.refusals.motion import STAYS
 from rpl.passes.legalise.rewriting.beside import closure, does_any
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -22,14 +21,6 @@ from rpl.passes.legalise.rewriting.stopping import left_out, stopped
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed
 
-STAYS = code(
-    "motion-stays-stopped",
-    Severity.LOSS,
-    "{routine} stops the robot, and lets it go on in a branch, in another routine or before it has ended: on the target"
-    " it goes on when the interrupt routine ends",
-    "start the motion again in the routine that stops it, behind everything that takes time",
-    stops=True,
-)
 _TIME = (
     *(ir.Move, ir.MoveExternal, ir.Spline, ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.StopMotion),
     *(ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.Halt),
@@ -37,12 +28,9 @@ _TIME = (
 _LEAVING = (ir.Return, ir.Goto, ir.Raise, ir.Retry, ir.TryNext, ir.ResumeLevel, ir.ClearMotion, ir.StartMotion)
 
 
-@legalising(
-    unless=lambda context: "StartMotion" in context.capabilities.statements or _drops_braked(context),
-    sees=("StopMotion",),
-)
+@legalising(sees=("StopMotion",))
 def held_motion(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets that cannot start the motion again by a word of their own, and whose brake does not drop it."""
+    """Stops of trap routines and of what they call."""
     traps = {
         one.routine.lower()
         for one in walk_for({"ConnectInterrupt"}, *program.modules)
@@ -69,13 +57,6 @@ def held_motion(program: ir.Program, context: Context) -> ir.Program:
         return routine if ends else edit_bodies(routine, lambda body: map_body(body, refuse))
 
     return edit_each(program, work)
-
-
-def _drops_braked(context: Context) -> bool:
-    """Is a move that was stopped gone on the target, so that it would have to begin again in its middle?"""
-    can = context.capabilities
-    watched = can.interrupts.watched in (Watched.ALL, Watched.INTERRUPTS)
-    return InterruptRule.STOPPING in can.interrupts.rules or watched or "StopMotion" not in can.statements
 
 
 def _held(body: ir.Body, timed: frozenset[str]) -> ir.Body | None:

@@ -1,6 +1,6 @@
-"""Search moves for targets that have none: an interrupt that brakes, keeps the position, and leaves the move.
+"""Search moves, which KRL has not: an interrupt that brakes, keeps the position, and leaves the move.
 
-A routine of its own holds the move, so that the target's resume drops exactly that. The error numbers are the source's:
+A routine of its own holds the move, so that RESUME drops exactly that. The error numbers are the source's:
 signal already there, nothing found.
 """
 
@@ -21,14 +21,9 @@ from rpl.passes.typing import type_of
 _PRIORITY = 5  # more urgent than the interrupts that passes.interrupts numbers
 
 
-@legalising(
-    unless=lambda context: (
-        "Search" in context.capabilities.statements
-        or not {"DeclareInterrupt", "ResumeLevel", "StopMotion"} <= context.capabilities.statements
-    )
-)
+@legalising()
 def searches(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without search moves that can brake and resume from an interrupt."""
+    """Moves that watch a condition."""
     worker = _Searches(context, set(rules_of(context.source).errors))
     scopes = ProgramScope(program)
     modules = tuple(

@@ -1,4 +1,4 @@
-"""What one move is to be driven with, for targets where speeds are modal: set before the move, set back behind it.
+"""What one move is to be driven with: KRL's speeds are modal, so it is set before the move and set back behind it.
 
 The value to go back to is the constant that the settings are known to have there, or else it is kept in a variable.
 Only what the kind of move is driven by is set. A least duration has no modal counterpart and is named.
@@ -26,9 +26,9 @@ _PATH = frozenset(
 _TURNING = frozenset(("orientation_mode", "circle_orientation"))
 
 
-@legalising(unless=lambda context: not context.capabilities.settings.modal or context.capabilities.settings.of_moves)
+@legalising()
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose speeds are all modal; spline moves have settings of their own there."""
+    """Moves with settings of their own, but for spline moves, which have them in KRL."""
     flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
     reported: set[str] = set()
     always = _said_by_all(program)

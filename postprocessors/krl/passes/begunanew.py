@@ -1,5 +1,5 @@
-"""Variables that begin with their first value at each start of the program, for targets that keep them in data lists:
-there the last value stays, so the program sets them when it starts.
+"""Variables that begin with their first value at each start of the program: KRL keeps them in data lists, where the
+last value stays, so the program sets them when it starts.
 
 Values that the source keeps too (persistent data) stay as the last run left them, and so does what the program sets
 before it looks at it. The value in the list is written as well: it is what the data begins with.
@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rpl import ir
-from rpl.passes.capabilities import DataRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.entries import INITIALISE
 from rpl.passes.legalise.facts.firstreads import read_first
@@ -24,9 +23,9 @@ from rpl.source import NOWHERE
 _INLINE = 8
 
 
-@legalising(unless=lambda context: DataRule.LISTS not in context.capabilities.data.rules)
+@legalising()
 def begun_anew(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets with data lists, and variables that the program assigns and may read before that. A task that
+    """Variables of data lists that the program assigns and may read before that. A task that
     does not move the robot sets its own."""
     entries = entries_of(program)
     background = {name for task in program.tasks if task.kind != "motion" for name in task.modules}

@@ -1,4 +1,4 @@
-"""Interrupts that brake a move which then goes on, for targets whose brake drops the move (V+ BRAKE).
+"""Interrupts that brake a move which then goes on: V+ BRAKE drops the move.
 
 The move would have to begin again in its middle, by a program that asks behind it whether it was braked: that is
 refused where the interrupt is declared. Where no move is driven while it is on, there is nothing to drop.
@@ -7,41 +7,25 @@ refused where the interrupt is declared. Where no move is driven while it is on,
 from __future__ import annotations
 
 from rpl import ir
-from rpl.diagnostics import Severity, code
-from rpl.passes.capabilities import InterruptRule
+from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.reach import Armed, armed_statements
 from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.records.watching import key_of, number_of
+from rpl.passes.legalise.refusals.motion import BRAKED
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.refusedactions import REFUSED, without_actions
 from rpl.passes.legalise.rewriting.stopping import left_out, stopped
 from rpl.passes.legalise.stages import legalising
 
-__all__ = ["BRAKED", "braked_moves"]
-
-BRAKED = code(
-    "braked-move-lost",
-    Severity.LOSS,
-    "{action} brakes the robot in the middle of a move that goes on behind it; the target's brake drops the move",
-    "let the move end at the condition, or drop it by a word of its own and command what is to follow",
-    stops=True,
-)
 _DRIVEN = (ir.Move, ir.MoveExternal, ir.Spline)
 
 
-@legalising(
-    unless=lambda context: (
-        InterruptRule.STOPPING not in context.capabilities.interrupts.rules
-        or "StartMotion" in context.capabilities.statements
-        or "ClearMotion" not in context.capabilities.statements
-    ),
-    sees=("StopMotion",),
-)
+@legalising(sees=("StopMotion",))
 def braked_moves(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose interrupts stop the robot and drop the move, with no word that lets it go on."""
+    """Interrupts that brake without dropping the move themselves, while a move may be driven."""
     routines = {routine.name.lower(): routine for module in program.modules for routine in module.routines}
     refused: list[ir.DeclareInterrupt] = []
     for node in walk_for({"DeclareInterrupt"}, *program.modules):
@@ -85,3 +69,6 @@ def _holds(routine: ir.Routine) -> bool:
 
     edit_bodies(routine, look)
     return found
+
+
+__all__ = ["braked_moves"]

@@ -1,4 +1,4 @@
-"""Parameters that a routine writes, for targets that pass copies only: each leaves its value in a variable.
+"""Parameters that a routine writes: URScript passes copies only, so each leaves its value in a variable.
 
 The routine copies such a parameter to a global variable where it ends, and the caller takes it from there. A parameter
 that is only read becomes a plain copy. What the routine also sees by another name is not updated before it ends.
@@ -10,12 +10,12 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import bodies
-from rpl.passes.capabilities import Passing
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.effects import blocks, is_constant, statements_in
+from rpl.passes.legalise.facts.effects import blocks, statements_in
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
+from rpl.passes.legalise.rewriting.places import fixed_place, is_open
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope
@@ -25,9 +25,9 @@ _LVALUES = (ir.Name, ir.Index, ir.Field)
 Key = tuple[str, str]
 
 
-@legalising(unless=lambda context: Passing.REFERENCES in context.capabilities.routines.passing)
+@legalising()
 def references_as_copies(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets without parameters by reference."""
+    """Parameters by reference, which URScript has not."""
     facts = _Facts(program)
     results: dict[Key, str] = {}
     for routine, parameter in facts.references:
@@ -125,11 +125,6 @@ class _Facts:
         return tuple(made)
 
 
-def is_open(type: ir.Type) -> bool:
-    """Is it a list of any length?"""
-    return isinstance(type, ir.ArrayType) and None in type.dimensions
-
-
 def calls_in(routine: ir.Routine) -> list[tuple[str, tuple[ir.Argument, ...]]]:
     """All calls of user routines in a routine, as statements and in expressions."""
     found: list[tuple[str, tuple[ir.Argument, ...]]] = []
@@ -193,23 +188,6 @@ def _rewritten(editor: Editor, routine: ir.Routine, facts: _Facts, results: dict
     body = map_body(done.body, change)
     ends = body and isinstance(body[-1], ir.Return)
     return replace(done, body=body if ends else (*body, *leave))
-
-
-def fixed_place(place: ir.Expression, before: list[ir.Statement], editor: Editor) -> ir.Expression:
-    """The same place before and behind a call: what calculates its subscripts goes to `before`, once."""
-    match place:
-        case ir.Index(base=base, indices=indices):
-            done = []
-            for index in indices:
-                if not is_constant(index):
-                    kept = editor.temporary("subscript", editor.type_of(index) or ir.IntType())
-                    before.append(ir.Assign(kept, index))
-                    index = kept
-                done.append(index)
-            return replace(place, base=fixed_place(base, before, editor), indices=tuple(done))
-        case ir.Field(base=base):
-            return replace(place, base=fixed_place(base, before, editor))
-    return place
 
 
 class _Callers(Hoister):
