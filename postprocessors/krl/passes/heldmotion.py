@@ -13,10 +13,10 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.refusals.motion import STAYS
 from rpl.passes.legalise.rewriting.beside import closure, does_any
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.refusedactions import STAYS
 from rpl.passes.legalise.rewriting.stopping import left_out, stopped
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed

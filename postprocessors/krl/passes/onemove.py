@@ -16,7 +16,7 @@ from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.legalise.settings.words import DROPPED, USUAL
+from rpl.passes.legalise.rewriting.settingwords import DROPPED, USUAL
 from rpl.passes.legalise.stages import legalising
 
 _JOINT = frozenset(("joint_speed", "joint_acceleration"))

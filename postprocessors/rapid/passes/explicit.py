@@ -16,12 +16,10 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, State
-from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.places.circles import has_arcs
+from rpl.passes.legalise.kinds import has_arcs, walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import with_data
-from rpl.passes.legalise.settings.carriedframes import ROOT, UNIT
-from rpl.passes.legalise.settings.words import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
+from rpl.passes.legalise.rewriting.settingwords import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, ROOT, UNIT, USUAL, says
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT, ZONE_PROPORTIONS
 from rpl.passes.rewrite import rewrite_parts

@@ -10,7 +10,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.columns import by_row, chosen
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.settings.corners.turningzones import NO_TURN, NO_WAY, Leg, Zone, with_zones
+from rpl.passes.legalise.rewriting.zones import NO_TURN, NO_WAY, Leg, Zone, with_zones
 from rpl.passes.legalise.stages import legalising
 
 _ROUNDING = 1e-6  # what rounding may add to a size, deg or thousandths

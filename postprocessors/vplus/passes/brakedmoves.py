@@ -7,16 +7,13 @@ refused where the interrupt is declared. Where no move is driven while it is on,
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.reach import Armed, armed_statements
+from rpl.passes.legalise.facts.reach import Armed, armed_statements, key_of, number_of
 from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.records.watching import key_of, number_of
-from rpl.passes.legalise.refusals.motion import BRAKED
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.legalise.rewriting.refusedactions import REFUSED, without_actions
+from rpl.passes.legalise.rewriting.refusedactions import BRAKED, REFUSED, without_actions
 from rpl.passes.legalise.rewriting.stopping import left_out, stopped
 from rpl.passes.legalise.stages import legalising
 

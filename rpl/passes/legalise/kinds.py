@@ -188,6 +188,11 @@ def rewrite_for(kinds: Set[str], node: N, change: Callable[[object], object]) ->
     return cast(N, rewritten(node))
 
 
+def has_arcs(program: ir.Program) -> bool:
+    """Does any move go along an arc?"""
+    return any(isinstance(one, ir.Move) and one.kind == "circular" for one in walk_for({"Move"}, *program.modules))
+
+
 __all__ = [
     "gathering",
     "holds_none",
@@ -198,4 +203,5 @@ __all__ = [
     "move_kinds",
     "rewrite_for",
     "walk_for",
+    "has_arcs",
 ]

@@ -108,8 +108,3 @@ def test_where_the_robot_is_is_seen_with_the_tool_that_is_set_now() -> None:
     after = same(before, [modal_to_explicit, tool_data], given, robot=ROBOT)
     asked = next(s for s in after.modules[0].routines[0].body if isinstance(s, ir.Assign))
     assert asked.value == ir.Builtin("current_target", (ir.Name("grip"), ir.Name("no_frame")))
-
-
-def test_other_targets_keep_their_poses() -> None:
-    before = program("MOVE TO p TOOL grip")
-    assert tool_data(before, context(before, EVERYTHING)) is before

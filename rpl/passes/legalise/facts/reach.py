@@ -145,3 +145,18 @@ class _Reach:
 
 
 __all__ = ["armed_statements"]
+
+
+def number_of(value: ir.Expression | None) -> int | None:
+    """The number of an interrupt that is given as a constant."""
+    match value:
+        case ir.IntLiteral(value=number):
+            return number
+        case ir.RealLiteral(value=real) if real.is_integer():
+            return int(real)
+    return None
+
+
+def key_of(one: ir.DeclareInterrupt) -> int | None:
+    """The number that control statements name the interrupt by."""
+    return number_of(one.identity if one.identity is not None else one.priority)

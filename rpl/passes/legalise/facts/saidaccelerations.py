@@ -16,7 +16,7 @@ from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import BRAKING, State
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.settings.words import DROPPED
+from rpl.passes.legalise.rewriting.settingwords import DROPPED
 
 GIVEN = code(
     "accelerations-of-source",

@@ -6,8 +6,8 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import Watched
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.reach import number_of
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.records.watching import number_of
 from rpl.passes.legalise.rewriting.beside import closure
 from rpl.passes.legalise.stages import legalising
 

@@ -13,9 +13,9 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import InterruptRule, Watched
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.reach import key_of, number_of
 from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.records.watching import key_of, number_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support

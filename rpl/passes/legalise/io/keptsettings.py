@@ -27,7 +27,7 @@ _FRAME = "base"
 def kept_settings(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that do not carry the source's settings, and for the settings that a program reads."""
     can = context.capabilities
-    nodes = list(walk_for({"System", "Move", "Assign"}, *program.modules))
+    nodes = list(walk_for({"Assign", "Move", "System"}, *program.modules))
     asked = Counter(node.name for node in nodes if isinstance(node, ir.System))
     asked.subtract(
         node.target.name for node in nodes if isinstance(node, ir.Assign) and isinstance(node.target, ir.System)

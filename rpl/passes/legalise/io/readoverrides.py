@@ -29,7 +29,7 @@ _FULL_PERCENT = 100.0
 )
 def read_overrides(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that set the override and cannot read it, and programs that read it."""
-    nodes = list(walk_for({"system override", "Assign"}, *program.modules))
+    nodes = list(walk_for({"Assign", "system override"}, *program.modules))
     set_places = {id(node.target) for node in nodes if isinstance(node, ir.Assign) and _is_override(node.target)}
     read = [node for node in nodes if isinstance(node, ir.System) and _is_override(node) and id(node) not in set_places]
     if not read:

@@ -7,8 +7,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
+from rpl.passes.legalise.kinds import has_arcs
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
 
 _SETTING = "circle_orientation"
 _USUAL = "base"
@@ -39,23 +39,8 @@ def circle_rules(program: ir.Program, context: Context) -> ir.Program:
     return replace(program, modules=modules)
 
 
-def has_arcs(program: ir.Program) -> bool:
-    """Does any move go along an arc?"""
-    found = False
-
-    def body(statements: ir.Body) -> ir.Body:
-        nonlocal found
-        for one in statements:
-            found = found or (isinstance(one, ir.Move) and one.kind == "circular")
-            rewrite_parts(one, lambda expression: expression, body)
-        return statements
-
-    rewrite_parts(program, lambda expression: expression, body)
-    return found
-
-
 def _at_start(dialect: str) -> str:
     return str(rules_of(dialect).system_defaults.get(_SETTING, _USUAL))
 
 
-__all__ = ["circle_rules", "has_arcs"]
+__all__ = ["circle_rules"]

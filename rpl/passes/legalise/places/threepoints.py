@@ -24,10 +24,9 @@ from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.facts.straightplaces import StraightPlaces
 from rpl.passes.legalise.facts.taughtvalues import tell_written
 from rpl.passes.legalise.facts.usage import base_name
-from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.kinds import has_arcs, walk_for
 from rpl.passes.legalise.places.arcends import COMPUTED, computed_arc
 from rpl.passes.legalise.places.arctriggers import placeable, shared_out
-from rpl.passes.legalise.places.circles import has_arcs
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in

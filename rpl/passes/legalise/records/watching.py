@@ -16,7 +16,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import PathRule, Watched
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.reach import Armed, armed_statements, with_calls
+from rpl.passes.legalise.facts.reach import Armed, armed_statements, key_of, number_of, with_calls
 from rpl.passes.legalise.facts.usage import called_names, exposed
 from rpl.passes.legalise.facts.watches import MOTION, Watch
 from rpl.passes.legalise.interrupts.endedmoves import EndedMoves, goes_on, unending
@@ -116,20 +116,6 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
 
 def _name(action: ir.Assign | ir.CallRoutine) -> str:
     return action.name if isinstance(action, ir.CallRoutine) else "an assignment"
-
-
-def number_of(value: ir.Expression | None) -> int | None:
-    match value:
-        case ir.IntLiteral(value=number):
-            return number
-        case ir.RealLiteral(value=real) if real.is_integer():
-            return int(real)
-    return None
-
-
-def key_of(one: ir.DeclareInterrupt) -> int | None:
-    """The number that control statements name the interrupt by."""
-    return number_of(one.identity if one.identity is not None else one.priority)
 
 
 @dataclass(slots=True)

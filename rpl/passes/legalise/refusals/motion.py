@@ -13,11 +13,12 @@ from rpl.passes.legalise.records.pathevents import NOT_WATCHED as NO_PATH_TASK
 from rpl.passes.legalise.records.pathpoints import ON_JOINT_MOVE
 from rpl.passes.legalise.records.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
+from rpl.passes.legalise.rewriting.refusedactions import BRAKED, STAYS
 from rpl.passes.legalise.source.rates import LOST as RATE
 from rpl.passes.legalise.source.ways.constantorientations import FIXED
 from rpl.passes.legalise.source.ways.constantorientations import LOST as KEPT
 
-__all__ = ["BRAKED", "MOTION", "STAYS"]
+__all__ = ["MOTION"]
 
 INTERRUPT = code(
     "interrupt-lost",
@@ -38,21 +39,6 @@ ALONE = code(
     Severity.LOSS,
     "the target holds back all interrupts or none, not one alone",
     "switch the interrupt off here, or let its routine ask a variable that is set here",
-    stops=True,
-)
-BRAKED = code(
-    "braked-move-lost",
-    Severity.LOSS,
-    "{action} brakes the robot in the middle of a move that goes on behind it; the target's brake drops the move",
-    "let the move end at the condition, or drop it by a word of its own and command what is to follow",
-    stops=True,
-)
-STAYS = code(
-    "motion-stays-stopped",
-    Severity.LOSS,
-    "{routine} stops the robot, and lets it go on in a branch, in another routine or before it has ended: on the target"
-    " it goes on when the interrupt routine ends",
-    "start the motion again in the routine that stops it, behind everything that takes time",
     stops=True,
 )
 _INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))

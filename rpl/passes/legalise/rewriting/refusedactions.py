@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from rpl import ir
+from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.facts.effects import children
 from rpl.passes.legalise.facts.usage import called_below
@@ -17,8 +18,23 @@ from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_bo
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import left_out
 
-__all__ = ["REFUSED", "without_actions"]
+__all__ = ["BRAKED", "REFUSED", "STAYS", "without_actions"]
 
+BRAKED = code(
+    "braked-move-lost",
+    Severity.LOSS,
+    "{action} brakes the robot in the middle of a move that goes on behind it; the target's brake drops the move",
+    "let the move end at the condition, or drop it by a word of its own and command what is to follow",
+    stops=True,
+)
+STAYS = code(
+    "motion-stays-stopped",
+    Severity.LOSS,
+    "{routine} stops the robot, and lets it go on in a branch, in another routine or before it has ended: on the target"
+    " it goes on when the interrupt routine ends",
+    "start the motion again in the routine that stops it, behind everything that takes time",
+    stops=True,
+)
 REFUSED = "its interrupt is refused where it is declared"
 _ONLY_THERE = (ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.StoreMotion, ir.ResumeLevel, ir.TryNext, ir.Retry)
 _WHICH = ("interrupt_number", "error_number")

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.settingwords import UNIT
 from rpl.source import Origin
 
 CARRIED_FRAME = code(
@@ -19,7 +20,6 @@ CARRIED_FRAME = code(
     "the target has no frame on another mechanism; '{unit}' carries this one",
     "the program stops there; write the move by hand",
 )
-UNIT, ROOT = "base_unit", "base_root"
 _BOTH = "carried frame"  # a frame and its mechanism as one value, while moves are compared
 
 Component = Callable[[ir.Expression, str], ir.Expression]
@@ -61,4 +61,4 @@ def assignments(value: ir.Expression, origin: Origin) -> list[ir.Statement] | No
     ]
 
 
-__all__ = ["CARRIED_FRAME", "ROOT", "UNIT", "assignments", "both", "is_lost", "unit_of"]
+__all__ = ["CARRIED_FRAME", "assignments", "both", "is_lost", "unit_of"]

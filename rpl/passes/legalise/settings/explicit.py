@@ -21,10 +21,10 @@ from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_na
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.library import common_library
+from rpl.passes.legalise.rewriting.settingwords import DROPPED, JOINT_BLEND
 from rpl.passes.legalise.settings import carriedframes
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
 from rpl.passes.legalise.settings.usualplaces import TURNING, turns_as_usual, usual_places, usual_turns
-from rpl.passes.legalise.settings.words import DROPPED, JOINT_BLEND
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts

@@ -18,10 +18,10 @@ from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.facts.settingsinforce import SETTINGS, SettingsInForce, State
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.settingwords import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
 from rpl.passes.legalise.rewriting.shadows import Shadow, only_served
 from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
 from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
-from rpl.passes.legalise.settings.words import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts

@@ -12,8 +12,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.rewriting.settingwords import DROPPED
 from rpl.passes.legalise.rewriting.walk import Rewriter
-from rpl.passes.legalise.settings.words import DROPPED
 from rpl.passes.legalise.stages import legalising
 
 AXIS_SPEED = code(

@@ -20,7 +20,7 @@ from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.legalise.settings.words import DROPPED
+from rpl.passes.legalise.rewriting.settingwords import DROPPED
 from rpl.passes.legalise.stages import legalising
 
 SLOWS_DOWN = code(

@@ -14,6 +14,8 @@ DROPPED = code(
     "the target has no setting for {name}; it is left out",
     several="{count} settings have no counterpart and are left out: [{name}]",
 )
+# The mechanism that carries the frame in force, and where it stands.
+UNIT, ROOT = "base_unit", "base_root"
 # Values with which a dropped setting says what the target does anyway.
 USUAL = {
     "orientation_mode": "variable",
