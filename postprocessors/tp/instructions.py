@@ -8,6 +8,7 @@ from typing import Protocol
 
 from rpl import ir
 from rpl.source import Origin
+from rpl.writing.anywhere import Anywhere
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
 
@@ -30,6 +31,7 @@ class Printing(Protocol):
     assignments: Assignments
     labels: Labels
     monitors: Mapping[int, tuple[str, int]]
+    may_select: Anywhere
 
     def line(self, text: str, origin: Origin | None = None) -> None: ...
 
@@ -42,8 +44,6 @@ class Printing(Protocol):
     def inner(self, body: ir.Body) -> None: ...
 
     def in_force(self, word: str, number: str) -> None: ...
-
-    def selects(self, body: ir.Body) -> bool: ...
 
     def crossing(self, selects: bool) -> None: ...
 
@@ -168,7 +168,7 @@ class Instructions:
         word = "DOWNTO" if found.down else "TO"
         bounds = f"{operand(first.value)} {word} {operand(found.stop)}"
         printer.line(f"FOR {operand(first.target)}={bounds}", first.origin)
-        selects = printer.selects(found.body)
+        selects = printer.may_select(found.body)
         printer.crossing(selects)
         printer.inner(found.body)
         printer.crossing(selects)
