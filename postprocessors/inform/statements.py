@@ -251,12 +251,7 @@ class Printer(StatementPrinter[str]):
         return False
 
     def choice(self, statement: ir.If) -> None:
-        statement = self.decided(statement)
         branches = list(statement.branches)
-        if not branches:
-            self.comments_only(statement.origin)
-            self.inner(statement.otherwise)
-            return
         if len(branches) == 1:
             (condition, body), *_ = branches
             lines, condition = self.assignments.prepared(condition)
@@ -275,27 +270,6 @@ class Printer(StatementPrinter[str]):
             self.line("ELSE")
             self.inner(statement.otherwise)
         self.line("ENDIF")
-
-    def decided(self, statement: ir.If) -> ir.If:
-        """Without the branches that are never taken; what stands behind one that is always taken goes, too."""
-        kept: list[tuple[ir.Expression, ir.Body]] = []
-        otherwise = statement.otherwise
-        for at, (condition, body) in enumerate(statement.branches):
-            if condition == ir.BoolLiteral(True):
-                self.dropped(*(later for _, later in statement.branches[at + 1 :]), otherwise)
-                otherwise = body
-                break
-            if condition == ir.BoolLiteral(False):
-                self.dropped(body)
-            else:
-                kept.append((condition, body))
-        return replace(statement, branches=tuple(kept), otherwise=otherwise)
-
-    def dropped(self, *bodies: ir.Body) -> None:
-        """Statements that never run are accounted for."""
-        for body in bodies:
-            for statement in body:
-                self.ledger.merged(statement)
 
     def short(self, statement: ir.If) -> bool:
         """`JUMP *L IF IN#(1)=ON`, `CALL JOB:X IF B000=1`."""

@@ -17,7 +17,7 @@ COUNT = ir.Assign(ir.Name("I001"), ir.IntLiteral(1))
 SWITCH = ir.Assign(ir.Signal("digital_out", ir.IntLiteral(1)), ir.BoolLiteral(True))
 ACTION = ir.Trigger("start", SWITCH, distance=ir.RealLiteral(50.0))
 LATER = ir.Trigger("end", SWITCH, delay=ir.RealLiteral(-0.1))
-ALWAYS = ir.BoolLiteral(True)
+ASKED = ir.Name("B001")
 
 
 def before_writing(*body: ir.Statement) -> ir.Body:
@@ -37,10 +37,10 @@ def test_an_awaited_move_ends_exactly_and_the_wait_stays() -> None:
 
 
 def test_only_variables_may_be_calculated_in_between() -> None:
-    assert before_writing(MOVE, COUNT, ir.If(((ALWAYS, (COUNT,)),)), WAIT) == (
-        *(EXACT, COUNT, ir.If(((ALWAYS, (COUNT,)),)), WAIT),
+    assert before_writing(MOVE, COUNT, ir.If(((ASKED, (COUNT,)),)), WAIT) == (
+        *(EXACT, COUNT, ir.If(((ASKED, (COUNT,)),)), WAIT),
     )
-    for other in (SWITCH, ir.If(((ALWAYS, (SWITCH,)),)), ir.Wait(ir.RealLiteral(1.0)), ir.CallRoutine("other")):
+    for other in (SWITCH, ir.If(((ASKED, (SWITCH,)),)), ir.Wait(ir.RealLiteral(1.0)), ir.CallRoutine("other")):
         assert before_writing(MOVE, other, WAIT)[0] == MOVE
     assert before_writing(MOVE, COUNT) == (MOVE, COUNT)
 

@@ -14,6 +14,7 @@ from .jointways import stand_before_ways
 from .longconditions import short_conditions
 from .moveactions import actions_of_moves
 from .shiftedpoints import shifted_points
+from .takenbranches import taken_branches
 from .watches import counted_watches
 
 PASSES: tuple[Placed, ...] = (
@@ -27,4 +28,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(again(short_conditions, "opposites of conditions are longer"), "control", behind="steps again"),
     Placed(number_dialogs, "statements", behind="decide_logic"),
 )
-LAST = (flags_in_bytes, actions_of_moves, exact_ends)
+LAST = (flags_in_bytes, taken_branches, actions_of_moves, exact_ends)
