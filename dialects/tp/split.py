@@ -57,6 +57,7 @@ _KNOWN = re.compile(
     """
 )
 # `PR[41:place,1]`: the component behind the comment; a controller itself prints `PR[41,1:place]`.
+_LABEL = re.compile(r"(?:LBL|LABEL)\s*\[", re.IGNORECASE)
 _COMPONENT = re.compile(r"\s*,\s*(?:[1-9]|A?R\[[^\[\],]*\])\s*\Z")
 # Body-shop calls with bare words as arguments are no calls of a program.
 _NAMED_ARGUMENTS = re.compile(r"CALL\s+VW_\w+\s*\(", re.IGNORECASE)
@@ -200,7 +201,7 @@ def _statements(text: str, begin: int, end: int, german: bool) -> Iterator[Piece
                 waiting = None
             yield Piece(LAYOUT, line.start, line.end, "")
             continue
-        piece = Piece(STATEMENT, line.start, line.end, readable(body, german))
+        piece = Piece(STATEMENT, line.start, line.end, readable(body, german), _label_text(body))
         if waiting is not None and _SELECT_NEXT.match(piece.text):
             joined = f"{waiting.text} {piece.text}"
             waiting = Piece(STATEMENT, waiting.start, piece.end, joined)
@@ -214,6 +215,15 @@ def _statements(text: str, begin: int, end: int, german: bool) -> Iterator[Piece
             yield piece
     if waiting is not None:
         yield waiting
+
+
+def _label_text(body: str) -> str | None:
+    """What `LBL[10:retry]` says of its label: a remark on that line."""
+    found = _LABEL.match(body)
+    if found is None:
+        return None
+    _, notes = without_notes(body)
+    return notes[0].text or None if notes else None
 
 
 def readable(body: str, german: bool) -> str:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from rpl import ir
 from rpl.passes.rewrite import rewrite_parts
+from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 
 from . import tables
 from .expressions import Expressions
 from .texts import comment
 
-_COMMENTED = re.compile(r"\bLBL\s*\[\s*\d+\s*:([^\]]*)\]", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?:lbl|label|l)?[_\[]?(\d+)\]?", re.IGNORECASE)
 
 
@@ -37,18 +37,16 @@ class Labels:
         """Numbers for all labels of a body."""
         found = cls()
         labels = list(_labels(body))
-        names = [label.name for label in labels]
         for label in labels:
             name = label.name
             match = _NUMBERED.fullmatch(name)
             number = int(match[1]) if match is not None else 0
             if 0 < number <= tables.LAST_LABEL and number not in found.comments:
                 found.numbers[name.lower()] = number
-                written = _COMMENTED.search(label.origin.text)
-                found.comments[number] = comment(written[1]) if written else ""
-        for name in names:
-            if name.lower() not in found.numbers:
-                found.numbers[name.lower()] = found.fresh(name.replace("_", " "))
+                found.comments[number] = comment(said_of(label))
+        for label in labels:
+            if label.name.lower() not in found.numbers:
+                found.numbers[label.name.lower()] = found.fresh(said_of(label) or label.name.replace("_", " "))
         return found
 
     def number(self, name: str) -> int:
@@ -66,6 +64,12 @@ class Labels:
     def text(self, name: str) -> str:
         return self.shown(self.number(name))
 
+    def origin(self, label: ir.Label) -> Origin:
+        """The label's origin without the remark that its brackets hold."""
+        shown = self.comments[self.number(label.name)]
+        kept = tuple(one for one in label.origin.comments if not (one.behind and one.text.strip() == shown))
+        return replace(label.origin, comments=kept)
+
     def shown(self, number: int) -> str:
         """The number and its comment, as they stand at the label itself."""
         label = self.comments.get(number, "")
@@ -78,6 +82,11 @@ class Labels:
             raise CannotSayError("there are no more label numbers")
         self.comments[number] = comment(label)
         return number
+
+
+def said_of(label: ir.Label) -> str:
+    """The remark on the label's own line."""
+    return next((one.text.strip() for one in label.origin.comments if one.behind), "")
 
 
 def _labels(body: ir.Body) -> Iterator[ir.Label]:

@@ -181,7 +181,7 @@ class Printer(StatementPrinter[Line]):
                 self.counting(statement)
             case ir.Label(name=name):
                 self.crossing(self.at_jumps)
-                self.line(f"LBL[{self.labels.text(name)}]", origin)
+                self.line(f"LBL[{self.labels.text(name)}]", self.labels.origin(statement))
             case ir.Goto(label=name):
                 self.line(f"JMP LBL[{self.labels.number(name)}]", origin)
             case ir.Assign(target=ir.System(name="load")):
