@@ -15,7 +15,7 @@ from rpl.passes.capabilities import Local, Parameters, RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.lists import sized
 from rpl.passes.legalise.facts.activations import Activations
-from rpl.passes.legalise.facts.effects import children, everything, is_constant, statements_in
+from rpl.passes.legalise.facts.effects import children, everything, expressions_in, is_constant, statements_in
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.arraycopies import array_copy
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
@@ -105,10 +105,9 @@ class ArraySizes:
                     match statement:
                         case ir.CallRoutine(name=name, arguments=arguments, dynamic=None):
                             self.note(scope, name, arguments)
-                    for child in children(statement):
-                        for one in everything(child):
-                            if isinstance(one, ir.Call):
-                                self.note(scope, one.name, one.arguments)
+                    for one in expressions_in(statement, {"Call"}):
+                        if isinstance(one, ir.Call):
+                            self.note(scope, one.name, one.arguments)
         size = -1
         while size != (size := sum(map(len, self.found.values()))):
             for key, givers in self.handed.items():

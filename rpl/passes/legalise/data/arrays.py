@@ -62,6 +62,8 @@ def _from_zero(program: ir.Program) -> set[str]:
 
 
 class _Shifted(Rewriter):
+    acts_on = frozenset(("ArrayType", "Index"))
+
     def type(self, type: ir.Type) -> ir.Type:
         done = super().type(type)
         if not isinstance(done, ir.ArrayType) or done.base == 1:

@@ -40,6 +40,8 @@ def numbers(program: ir.Program, context: Context) -> ir.Program:
 class _Joined(Rewriter):
     """To a target without a type of whole numbers or of characters."""
 
+    acts_on = frozenset(("IntType", "CharType", "Convert"))
+
     def type(self, type: ir.Type) -> ir.Type:
         have = self.context.capabilities.types
         if isinstance(type, ir.IntType) and "IntType" not in have:

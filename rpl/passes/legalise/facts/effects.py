@@ -6,11 +6,12 @@ facts. They are conservative: what is not known to be harmless counts as harmful
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from functools import cached_property
 
 from rpl import ir
 from rpl.ir.walk import bodies
+from rpl.passes.legalise.kinds import holds_none
 from rpl.passes.rewrite import visit_parts
 
 # Built-in functions that fail for some arguments (a root of a negative number, a text that is no number, ...).
@@ -51,6 +52,14 @@ def everything(expression: ir.Expression) -> Iterator[ir.Expression]:
         one = work.pop()
         yield one
         work += reversed(children(one))
+
+
+def expressions_in(statement: ir.Statement, kinds: Set[str]) -> Iterator[ir.Expression]:
+    """The expressions of a statement and all below them, its bodies left aside; nothing of one that holds none of these
+    kinds."""
+    if not holds_none(statement, kinds):
+        for child in children(statement):
+            yield from everything(child)
 
 
 def blocks(statement: ir.Statement) -> list[ir.Body]:

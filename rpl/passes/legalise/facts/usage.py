@@ -5,14 +5,14 @@ Conservative and by name: a name that is assigned in one scope counts as assigne
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Set
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import NamedTuple
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
-from rpl.passes.legalise.kinds import gathering, kinds_within, walk_for
+from rpl.passes.legalise.kinds import gathering, holds_none, kinds_within, walk_for
 from rpl.passes.rewrite import visit_parts
 
 _BY_TEXT = ""  # among names of called routines: any procedure
@@ -30,8 +30,16 @@ def each_statement(body: ir.Body, visit: Callable[[ir.Statement], None]) -> None
     look(body)
 
 
-def each_expression(statement: ir.Statement, visit: Callable[[ir.Expression], None], inner: bool = False) -> None:
-    """Visit every expression of a statement, outer before inner; with `inner` also those of its bodies."""
+def each_expression(
+    statement: ir.Statement,
+    visit: Callable[[ir.Expression], None],
+    inner: bool = False,
+    kinds: Set[str] = frozenset(),
+) -> None:
+    """Visit every expression of a statement, outer before inner; with `inner` also those of its bodies. kinds: what is
+    looked for; a statement that holds none of these is not entered."""
+    if holds_none(statement, kinds):
+        return
 
     def look(expression: ir.Expression) -> None:
         visit(expression)

@@ -19,7 +19,10 @@ from rpl.source import Origin
 _TIMERS = ("timer", "timer_stopped", "timer_positive")
 
 
-@legalising()
+_ACTS_ON = frozenset(f"system {one}" for one in _TIMERS)
+
+
+@legalising(sees=_ACTS_ON)
 def timers_to_clocks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without numbered timers that have stop watches. Computed timer numbers stay for the writer.
     Where timers have no flag that tells whether they are past zero, they are compared."""
@@ -77,6 +80,8 @@ def _written(value: ir.Expression) -> bool:
 
 class _Compared(Rewriter):
     """The flag of a timer is whether the timer is above zero; a choice starts or stops one by a condition."""
+
+    acts_on = _ACTS_ON
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
         done = super().statement(statement)

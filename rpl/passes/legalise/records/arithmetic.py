@@ -31,6 +31,8 @@ def arithmetic(program: ir.Program, context: Context) -> ir.Program:
 
 
 class _Arithmetic(Rewriter):
+    acts_on = frozenset(("Builtin", "Convert", "operator xor"))
+
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
         own = {"rpl_atan2": "atan2"} if self.has("atan2") else {}

@@ -27,6 +27,7 @@ _SOLVED = {
     "target_to_joints_near": "calculate the joints of a place that are nearest to given ones",
     "is_reachable": "ask whether a place can be reached",
 }
+_FUNCTIONS = frozenset(f"function {one}" for one in _SOLVED)
 
 
 def _unsolved(statement: ir.Statement, asked: Asked) -> Found:
@@ -49,7 +50,7 @@ def _unsolved(statement: ir.Statement, asked: Asked) -> Found:
         if not needed <= can.functions:
             found.append({"what": _SOLVED[expression.function]})
 
-    each_expression(statement, look)
+    each_expression(statement, look, kinds=_FUNCTIONS)
     return tuple(found)
 
 

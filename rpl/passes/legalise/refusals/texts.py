@@ -43,7 +43,7 @@ def _format(statement: ir.Statement, asked: Asked) -> Found:
                 if "format" not in can.functions:
                     found.extend(_odd(form))
 
-    each_expression(statement, look)
+    each_expression(statement, look, kinds={"function format"})
     match statement:
         case ir.Do(procedure="format_into", arguments=(_, _, _, ir.TextLiteral(value=form), *_)):
             found.extend(_odd(form))

@@ -58,7 +58,7 @@ def _lacking(*functions: str) -> Callable[[ir.Statement, Asked], Found]:
                 found.append({"function": expression.function})
 
         if missing:
-            each_expression(statement, look)
+            each_expression(statement, look, kinds={f"function {one}" for one in missing})
         return tuple(found[:1])
 
     return refused
@@ -82,7 +82,7 @@ def _payload(statement: ir.Statement, asked: Asked) -> Found:
         if isinstance(expression, ir.Field) and expression.base == _LOAD:
             found.append(expression)
 
-    each_expression(statement, look)
+    each_expression(statement, look, kinds={"system load"})
     return PLAINLY if found else ()
 
 
@@ -96,7 +96,7 @@ def _compared(statement: ir.Statement, asked: Asked) -> Found:
                 found.extend({"what": what} for side in (left, right) if (what := _record(side, asked)))
 
     if DataRule.COMPARED_RECORDS not in asked.can.data.rules and not asked.can.carries_rules:
-        each_expression(statement, look)
+        each_expression(statement, look, kinds={"operator =", "operator <>"})
     return tuple(found[:1])
 
 

@@ -7,6 +7,7 @@ where they have a constant width.
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import replace
 
 from rpl import ir
@@ -131,8 +132,8 @@ def _numbers(bits: list[ir.Signal]) -> str:
 class GroupsAsBits(Hoister):
     """Every group is taken apart into its signals."""
 
-    def __init__(self, editor: Editor) -> None:
-        super().__init__(editor, self.ruled)
+    def __init__(self, editor: Editor, acts_on: Set[str] = frozenset()) -> None:
+        super().__init__(editor, self.ruled, acts_on)
         self.told: set[str] = set()  # groups of this routine that are written bit by bit
 
     def bits(self, expression: ir.Expression) -> list[ir.Signal]:

@@ -14,12 +14,14 @@ from rpl.passes.legalise.stages import legalising
 
 # routine, place of its parameter, dimension from 1
 _Asked = tuple[str, int, int]
+_ASKING = frozenset(("function dimension", "function length"))
 
 
 @legalising(
     unless=lambda context: (
         "dimension" in context.capabilities.functions and DataRule.ROW_SIZES in context.capabilities.data.rules
-    )
+    ),
+    sees=_ASKING,
 )
 def array_sizes(program: ir.Program, context: Context) -> ir.Program:
     """Sizes of arrays that a routine is given come with them."""
@@ -33,6 +35,8 @@ def array_sizes(program: ir.Program, context: Context) -> ir.Program:
 
 class _Sized(Rewriter):
     """`asked`: names of the new parameters; grows while the program is looked through."""
+
+    acts_on = _ASKING | {"Call", "CallRoutine"}
 
     def __init__(self, program: ir.Program, context: Context, asked: dict[_Asked, str]) -> None:
         super().__init__(program, context)

@@ -17,7 +17,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import NameRules, Parameters, Passing, RoutineRule
 from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.effects import blocks, children, everything, statements_in
+from rpl.passes.legalise.facts.effects import blocks, expressions_in, statements_in
 from rpl.passes.legalise.facts.entries import calls_of, never_called, reached
 from rpl.passes.legalise.facts.heldtexts import HeldTexts, as_written_before, text_beginning
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
@@ -143,12 +143,11 @@ def _facts(program: ir.Program) -> _Facts:
                     _call(facts, here, statement.name, statement.arguments, scope)
                 for action in _actions(statement):
                     _call(facts, here, action.name, action.arguments, scope)
-                for child in children(statement):
-                    for one in everything(child):
-                        if isinstance(one, ir.Present):
-                            facts.asked.add((here, one.name.lower()))
-                        elif isinstance(one, ir.Call):
-                            _call(facts, here, one.name, one.arguments, scope)
+                for one in expressions_in(statement, {"Present", "Call"}):
+                    if isinstance(one, ir.Present):
+                        facts.asked.add((here, one.name.lower()))
+                    elif isinstance(one, ir.Call):
+                        _call(facts, here, one.name, one.arguments, scope)
     return facts
 
 

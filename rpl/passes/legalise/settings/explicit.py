@@ -9,16 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import walk
 from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
-from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.kinds import rewrite_for, walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.rewriting.settingwords import DROPPED, JOINT_BLEND
@@ -108,7 +109,7 @@ def _with_least(program: ir.Program, context: Context) -> ir.Program:
         least = isinstance(node, ir.Builtin) and node.function == "min"
         return helpers.call("rpl_min", *node.arguments) if least and isinstance(node, ir.Builtin) else node
 
-    return helpers.added_to(rewrite(program, change))
+    return helpers.added_to(rewrite_for({"function min"}, program, change))
 
 
 def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
@@ -146,6 +147,9 @@ class Modal:
     ) -> None:
         self.context, self.can, self.scope = context, context.capabilities, scope
         self.assigned, self.reported = assigned, reported
+        # Nearly every move names the same few tools, frames and speeds.
+        self.type_of_name = cache(lambda name: type_of(name, scope))
+        self.data_of_name = cache(self.constant_data)
         self.usual, self.quiet, self.below = usual, quiet, below or {}
         self.turns = turns  # does any move say how fast the tool turns?
         self.restless = restless  # an interrupt may set what is modal between any two statements
@@ -363,7 +367,7 @@ class Modal:
         return item if _is_identity(user) else ir.Binary(":", user, item)
 
     def type(self, expression: ir.Expression) -> ir.Type | None:
-        return type_of(expression, self.scope)
+        return self.type_of_name(expression) if isinstance(expression, ir.Name) else type_of(expression, self.scope)
 
     def component(self, value: ir.Expression, name: str) -> ir.Expression:
         """The component; of constant data its initial value."""
@@ -388,17 +392,16 @@ class Modal:
     def constant_aggregate(self, value: ir.Expression) -> ir.Aggregate | None:
         if isinstance(value, ir.Aggregate):
             return value
-        if not isinstance(value, ir.Name):
-            return None
+        return self.data_of_name(value) if isinstance(value, ir.Name) else None
+
+    def constant_data(self, value: ir.Name) -> ir.Aggregate | None:
         symbol = self.scope.value(value.id)
         if symbol is None or not isinstance(symbol.declaration, ir.Variable):
             return None
         declaration = symbol.declaration
         fixed = declaration.storage == "constant" or value.id.lower() not in self.assigned
         initial = declaration.initial
-        if fixed and isinstance(initial, ir.Aggregate):
-            return initial
-        return self.constant_aggregate(initial) if fixed and isinstance(initial, ir.Name) else None
+        return self.constant_aggregate(initial) if fixed and initial is not None else None
 
     def timed(self, move: ir.Move) -> ir.Speed | None:
         """The time of a move that says one, for targets whose moves can."""

@@ -13,10 +13,11 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.builtins import FUNCTIONS
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.entries import never_called
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import visit_parts
 from rpl.passes.scope import ProgramScope, Scope
@@ -73,6 +74,9 @@ def undeclared_data(program: ir.Program, context: Context) -> ir.Program:
         if routine.origin is NOWHERE:
             continue  # what the reader has brought along
         uses.scope = _scope(scopes, module, routine)
+        names_here = {node.id for node in walk_for({"Name"}, routine) if isinstance(node, ir.Name)}
+        if all(uses.scope.value(name) is not None for name in names_here):
+            continue
         for body in (routine.body, *(one.body for one in routine.handlers), routine.undo, routine.backward):
             uses.body(body)
     paths = uses.agreed()
@@ -117,7 +121,7 @@ def undeclared_data(program: ir.Program, context: Context) -> ir.Program:
 def _scope(scopes: ProgramScope, module: ir.Module, routine: ir.Routine) -> Scope:
     """What names mean in the routine; a counter that its loop declares is known in all of it."""
     scope = scopes.routine(module, routine)
-    counters = {node.counter for node in walk(routine) if isinstance(node, ir.For) and node.scoped}
+    counters = {node.counter for node in walk_for({"For"}, routine) if isinstance(node, ir.For) and node.scoped}
     for counter in sorted(counters):
         if scope.value(counter) is None:
             scope = scope.with_value(ir.Variable(counter, _WHOLE))

@@ -14,7 +14,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
 from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.effects import blocks, children, everything, is_constant, root, statements_in
+from rpl.passes.legalise.facts.effects import blocks, children, expressions_in, is_constant, root, statements_in
 from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers, of_held_timers
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
@@ -76,13 +76,12 @@ class _Timers:
                         self._note(statement)
 
     def _note(self, statement: ir.Statement) -> None:
-        for child in children(statement):
-            for one in everything(child):
-                if isinstance(one, ir.System) and one.name.startswith("timer") and one.indices:
-                    index = one.indices[0]
-                    numbers = [index.value] if isinstance(index, ir.IntLiteral) else []
-                    # a computed number may mean any timer: none is free then
-                    self.used.update(numbers or range(1, self.context.capabilities.io.timers + 1))
+        for one in expressions_in(statement, {"System"}):
+            if isinstance(one, ir.System) and one.name.startswith("timer") and one.indices:
+                index = one.indices[0]
+                numbers = [index.value] if isinstance(index, ir.IntLiteral) else []
+                # a computed number may mean any timer: none is free then
+                self.used.update(numbers or range(1, self.context.capabilities.io.timers + 1))
 
     def take(self, purpose: str, count: int = 1) -> int | None:
         """The first of `count` timers that nothing else uses; None when there are not as many."""
@@ -121,8 +120,8 @@ def _reached_from_interrupts(program: ir.Program) -> set[str]:
                             reached.add(name.lower())
                         case ir.ConnectInterrupt(routine=name) | ir.Trigger(action=ir.CallRoutine(name=name)):
                             reached.add(name.lower())
-                    for child in children(statement):
-                        called |= {one.name.lower() for one in everything(child) if isinstance(one, ir.Call)}
+                    calls_in = (one for one in expressions_in(statement, {"Call"}) if isinstance(one, ir.Call))
+                    called |= {one.name.lower() for one in calls_in}
     size = -1
     while size != len(reached):
         size = len(reached)
@@ -131,6 +130,9 @@ def _reached_from_interrupts(program: ir.Program) -> set[str]:
 
 
 # ---- waits and delayed outputs
+
+
+_ACTS_ON = frozenset(("WaitUntil", "SetAfter", "Pulse"))
 
 
 class _Waits:
@@ -142,7 +144,7 @@ class _Waits:
         self.capabilities = editor.capabilities
 
     def body(self, body: ir.Body) -> ir.Body:
-        return map_body(body, self.statement)
+        return map_body(body, self.statement, _ACTS_ON)
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         match statement:

@@ -101,6 +101,8 @@ class Points:
     routine: str = ""
     earlier: Mapping[str, int] = field(default_factory=dict)  # numbers that a map gives to points of the routine
     kept: frozenset[int] = frozenset()
+    own: set[int] = field(default_factory=set)  # numbers that names of the program say for themselves
+    seen_names: int = 0  # of how many names these are
     homes: dict[int, tuple[ir.Variable, list[str]]] = field(default_factory=dict)  # who has a copy, by declaration
 
     def begin(self, routine: ir.Routine) -> None:
@@ -268,7 +270,8 @@ class Points:
 
     def own_numbers(self) -> set[int]:
         """Numbers that names of the program say for themselves."""
-        bank = self.context.capabilities.storage.points
-        names = () if bank is None else self.context.taken
-        found = {own_number(name, bank) for name in names} if bank is not None else set()
-        return {number for number in found if number is not None}
+        bank, names = self.context.capabilities.storage.points, self.context.taken
+        if bank is not None and len(names) != self.seen_names:  # names are only ever added
+            found = {own_number(name, bank) for name in names}
+            self.own, self.seen_names = {number for number in found if number is not None}, len(names)
+        return self.own
