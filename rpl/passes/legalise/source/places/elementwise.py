@@ -6,6 +6,7 @@ once for the type it is used with, in terms of components, which the passes behi
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -13,6 +14,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -21,6 +23,7 @@ from rpl.passes.typing import type_of
 
 _OPERATORS = {"element_sum": "+", "element_difference": "-", "element_product": "*"}
 _MOVED = ("displaced", "displaced_in_tool")
+_NAMING = frozenset(("Name", "Field", "Assign", "Builtin"))
 _DONE, _ONE, _OTHER, _PRODUCT = "done", "one", "other", "product"
 
 
@@ -46,8 +49,11 @@ class _Worker:
     lacking: frozenset[str]
     names: dict[tuple[str, ir.Type, ir.Type | None], str] = field(default_factory=dict)
     routines: list[ir.Routine] = field(default_factory=list)
+    source: ir.Program = field(default_factory=lambda: ir.Program(()))
+    plain: frozenset[str] | None = None
 
     def program(self, program: ir.Program) -> ir.Program:
+        self.source = program
         scopes = ProgramScope(program)
         modules = []
         for module in program.modules:
@@ -91,14 +97,19 @@ class _Worker:
             ) if one == other and "element_difference" in self.lacking:
                 calls = any(isinstance(node, ir.Call) for node in walk(one))
                 if not calls and isinstance(self.known(place, scope), ir.TargetType | ir.PoseType):
-                    return self.zero(statement, place, one)
+                    return self.zero(statement, place, one, scope)
         return ()
 
-    def zero(self, statement: ir.Assign, place: ir.Name, one: ir.Expression) -> ir.Body:
+    def zero(self, statement: ir.Assign, place: ir.Name, one: ir.Expression, scope: Scope) -> ir.Body:
+        """The place with nothing but zeros; its posture stays where anything may ask for it."""
         places = self.context.capabilities.places
         rules = places.rules
         if PlaceRule.WHOLE in rules or places.postures is Postures.JOINTS:  # a place is a pose and nothing else
             return (replace(statement, value=ir.System("null_frame")),)
+        if place.id.lower() in self.components_only():
+            word = "pose" if isinstance(self.known(place, scope), ir.PoseType) else "target"
+            nowhere = ir.Aggregate(tuple((part, ir.RealLiteral(0.0)) for part in ir.POSE), word)
+            return (replace(statement, value=nowhere),)
         nothing = ir.IntLiteral(0)
         values: dict[str, ir.Expression] = dict.fromkeys(ir.POSE, nothing)
         if PlaceRule.QUATERNIONS in rules:
@@ -111,6 +122,13 @@ class _Worker:
         done += [replace(statement, target=ir.Field(place, part), value=value) for part, value in values.items()]
         first, *others = done
         return (first, *(replace(one, origin=replace(one.origin, comments=())) for one in others))
+
+    def components_only(self) -> frozenset[str]:
+        """Names (folded) of places of which the program sets and reads x, y, z and angles alone: nothing drives there,
+        so that nothing asks for their posture."""
+        if self.plain is None:
+            self.plain = _components_only(self.source)
+        return self.plain
 
     def moves(self, target: ir.Builtin) -> bool:
         """Does a move of the target's say this itself?"""
@@ -141,6 +159,23 @@ class _Worker:
                 return found
         type = type_of(expression, scope)
         return type if isinstance(type, ir.TargetType | ir.PoseType | ir.JointsType) else None
+
+
+def _components_only(program: ir.Program) -> frozenset[str]:
+    used: Counter[str] = Counter()
+    plain: Counter[str] = Counter()
+    for node in walk_for(_NAMING, *program.modules):
+        match node:
+            case ir.Name(id=name):
+                used[name.lower()] += 1
+            case ir.Field(base=ir.Name(id=name), name=part) if part in ir.POSE:
+                plain[name.lower()] += 1
+            case ir.Assign(target=ir.Name(id=name)) | ir.Builtin(function="pose_of", arguments=(ir.Name(id=name),)):
+                plain[name.lower()] += 1
+            case ir.Builtin(function=function, arguments=(one, ir.Name(id=name))) if function in _OPERATORS:
+                nothing = function == "element_difference" and one == ir.Name(name)
+                plain[name.lower()] += 2 if nothing else 1
+    return frozenset(name for name, times in used.items() if plain[name] == times)
 
 
 def _part(name: str, component: str) -> ir.Field:
