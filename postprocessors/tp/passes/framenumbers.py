@@ -19,7 +19,7 @@ from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.framenumbers import Table, is_none, key_of, names_in, tables_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, in_frame
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -107,7 +107,7 @@ def _selections(program: ir.Program, scopes: ProgramScope) -> Iterator[tuple[str
     for module in program.modules:
         for routine in module.routines:
             scope = scopes.routine(module, routine)
-            for node in walk(*bodies(routine)):
+            for node in walk_for({"Assign"}, *bodies(routine)):
                 match node:
                     case ir.Assign(target=ir.System(name=name), value=value) if name in tables.SELECTED:
                         yield name, value, scope
@@ -122,10 +122,10 @@ def selected_once(program: ir.Program, context: Context) -> ir.Program:
     defaults = dict(rules_of(context.source).system_defaults)
     flow = SettingsInForce.of(program, defaults)
     steady = not any(True for _ in reactions(program))
-    program = _each_routine(program, lambda one: _selecting(one, flow, steady))
-    flow = SettingsInForce.of(program, defaults)
-    program = _each_routine(program, lambda one: _without_repeated(one, flow))
-    last = SettingsInForce.of(program, defaults)
+    selecting = edit_each(program, lambda _, one: _selecting(one, flow, steady))
+    here = flow if selecting is program else SettingsInForce.of(selecting, defaults)
+    program = edit_each(selecting, lambda _, one: _without_repeated(one, here))
+    last = here if program is selecting else SettingsInForce.of(program, defaults)
 
     def change(statement: ir.Statement) -> ir.Body:
         if isinstance(statement, ir.Move):
@@ -155,7 +155,7 @@ def _number(name: str, value: ir.Expression | None) -> ir.Expression | None:
 def _selecting(routine: ir.Routine, flow: SettingsInForce, steady: bool) -> ir.Routine:
     """The routine that selects, before its first move, what is in force there by whatever called it; `steady`: nothing
     selects between two statements."""
-    nodes = [*walk(routine.body)]
+    nodes = [*walk_for({"Move", "Assign"}, routine.body)]
     first = next((node for node in nodes if isinstance(node, ir.Move)), None)
     if first is None:
         return routine
@@ -225,7 +225,7 @@ def _may_select(node: object) -> bool:
 
 def _without_repeated(routine: ir.Routine, flow: SettingsInForce) -> ir.Routine:
     """The routine without what is in force already; one that needs frames keeps its first selection of each kind."""
-    needs = any(isinstance(node, ir.Move) for node in walk(routine.body))
+    needs = any(isinstance(node, ir.Move) for node in walk_for({"Move"}, routine.body))
     kept: set[str] = set() if needs else set(tables.SELECTED)
 
     def change(statement: ir.Statement) -> ir.Body:

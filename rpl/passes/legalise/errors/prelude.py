@@ -12,7 +12,7 @@ from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
 from rpl.errors import InternalError
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.rewriting.editing import edit_bodies
+from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.typing import normalise
@@ -81,7 +81,7 @@ def _with_own_values(modules: list[ir.Module], prelude: ir.Module) -> list[ir.Mo
         return done
 
     def body(statements: ir.Body) -> ir.Body:
-        return tuple(rewrite_parts(statement, expression, body) for statement in statements)
+        return map_body(statements, lambda statement: (rewrite_parts(statement, expression, body),), {"Call"})
 
     if not lone:
         return modules

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
-from rpl.ir.walk import rewrite, walk
+from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
@@ -132,7 +132,7 @@ def _refused(program: ir.Program, context: Context) -> dict[str, Code]:
         routine.name.lower()
         for module in program.modules
         for routine in module.routines
-        if any(isinstance(node, ir.System) and node.name == _NUMBER for node in walk(routine))
+        if any(isinstance(node, ir.System) and node.name == _NUMBER for node in walk_for({"System"}, routine))
     }
     routines: dict[str, set[str]] = {}
     ways: dict[str, list[object]] = {}

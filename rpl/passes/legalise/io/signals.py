@@ -20,7 +20,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.io.groupwidths import TOO_NARROW, WIDTH, group_widths
 from rpl.passes.legalise.io.signalnumbers import numbers_as_arguments, parameters_as_numbers
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies
+from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
 from rpl.passes.scope import Scope
@@ -309,7 +309,7 @@ def _computed(program: ir.Program) -> frozenset[str]:
     routines = [routine for module in program.modules for routine in module.routines]
     return frozenset(
         node.kind
-        for node in walk(*routines)
+        for node in walk_for({"Signal"}, *routines)
         if isinstance(node, ir.Signal) and node.last is None and not isinstance(node.index, ir.IntLiteral | None)
     )
 
@@ -353,7 +353,7 @@ def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str
         return rewrite_parts(expression, replaced)
 
     def replaced_body(body: ir.Body) -> ir.Body:
-        return tuple(rewrite_parts(statement, replaced, replaced_body) for statement in body)
+        return map_body(body, lambda statement: (rewrite_parts(statement, replaced, replaced_body),), {"Signal"})
 
     modules = list(edit_all(program, replaced_body).modules)
     if declared:

@@ -39,7 +39,7 @@ class _Definitions:
     def read(self, program: ir.Program) -> None:
         for module in program.modules:
             for routine in module.routines:
-                for node in walk(*bodies(routine)):
+                for node in walk_for({"DefineTrigger"}, *bodies(routine)):
                     if isinstance(node, ir.DefineTrigger):
                         name = base_name(node.target) or ""
                         self.single[name] = None if name in self.single else node

@@ -211,7 +211,7 @@ class _AtMoves:
 
     def called(self, statement: ir.Statement, begins: _Begin | ir.Move | None) -> None:
         """Notes where the robot is at the calls of a statement; a call within another statement may be anywhere."""
-        for node in walk(statement):
+        for node in walk_for({"CallRoutine", "Call"}, statement):
             if isinstance(node, ir.CallRoutine | ir.Call):
                 begin = self.known(begins) if node is statement else None
                 own = begin is not None and isinstance(begin[0].blend, ir.BlendStop | None)

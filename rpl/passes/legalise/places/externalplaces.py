@@ -16,6 +16,7 @@ from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.externalaxes import AXES, is_nothing
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -50,7 +51,7 @@ def _used(program: ir.Program) -> tuple[str, ...]:
     """Axes that some place or component of the program sends away from zero; those of no other place do not count,
     nor those of the parameters in a language's prelude, which are limits and not places."""
     found: set[str] = set()
-    for node in walk(*(module for module in program.modules if not _is_prelude(module))):
+    for node in walk_for({"Field", "Aggregate"}, *(module for module in program.modules if not _is_prelude(module))):
         match node:
             case ir.Field(name=name):
                 found |= {name} & set(_NAMES)

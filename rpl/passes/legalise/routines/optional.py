@@ -13,13 +13,14 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.errornames import spelled_among
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies
 from rpl.passes.capabilities import NameRules, Parameters, Passing, RoutineRule
 from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, expressions_in, statements_in
 from rpl.passes.legalise.facts.entries import calls_of, never_called, reached
 from rpl.passes.legalise.facts.heldtexts import HeldTexts, as_written_before, text_beginning
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.support import default_value
 from rpl.passes.legalise.stages import legalising
@@ -99,7 +100,9 @@ def _with_entry(program: ir.Program, chosen: ir.Program) -> ir.Program:
         routine.name.lower()
         for module in program.modules
         for routine in module.routines
-        if any(isinstance(node, ir.CallRoutine) and node.dynamic is not None for node in walk(routine))
+        if any(
+            isinstance(node, ir.CallRoutine) and node.dynamic is not None for node in walk_for({"CallRoutine"}, routine)
+        )
     }
     starts = [name for name in sorted(before) if reached(name, calls) & by_name]
     if len(starts) != 1 or starts[0] in after:

@@ -25,13 +25,15 @@ _OPERATORS = {"element_sum": "+", "element_difference": "-", "element_product": 
 _MOVED = ("displaced", "displaced_in_tool")
 _NAMING = frozenset(("Name", "Field", "Assign", "Builtin"))
 _DONE, _ONE, _OTHER, _PRODUCT = "done", "one", "other", "product"
+_SEEN = frozenset(f"function {one}" for one in (*_OPERATORS, *_MOVED, "pose_of"))
 
 
 @legalising(
     unless=lambda context: (
         not {*_OPERATORS, *_MOVED, "pose_of"}
         - (context.capabilities.functions - (context.capabilities.places.move_functions & set(_MOVED)))
-    )
+    ),
+    sees=_SEEN,
 )
 def elementwise(program: ir.Program, context: Context) -> ir.Program:
     """The program without the functions of this kind that the target lacks."""
