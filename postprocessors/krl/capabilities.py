@@ -15,7 +15,6 @@ from rpl.passes.capabilities import (
     DataRule,
     Errors,
     Fault,
-    GroupRule,
     InterruptRule,
     Interrupts,
     Io,
@@ -84,7 +83,7 @@ CAPABILITIES = Capabilities(
         rules=frozenset((InterruptRule.SINGLE_DISABLES,)),
     ),
     tasks=Tasks(background=Background.SHARED, moving=False),
-    io=Io(widest_group=32, timers=64, groups=frozenset((GroupRule.FREE,))),  # each declared (passes/groups.py)
+    io=Io(widest_group=32, timers=64, groups=frozenset()),  # each declared (passes/groups.py)
     texts=Texts(room=(tables.DEFAULT_TEXT_CAPACITY, tables.LONGEST_TEXT)),
     data=Data(
         composites=frozenset((Composite.ARRAYS, Composite.ENUMS, Composite.RECORDS)),

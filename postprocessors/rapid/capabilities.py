@@ -61,7 +61,7 @@ CAPABILITIES = Capabilities(
         rules=frozenset((SettingRule.ASKED_FRAME, SettingRule.TOOL_IN_FORCE)),
         bare=("tool0", "wobj0"),
     ),
-    tasks=Tasks(background=Background.SEPARATE, moving=False, places_beside=True),
+    tasks=Tasks(background=Background.SEPARATE, moving=False),
     io=Io(
         signal_prefixes={
             "digital_in": "di",

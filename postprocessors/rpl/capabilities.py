@@ -42,9 +42,7 @@ CAPABILITIES = Capabilities(
     carries_rules=True,
     places=Places(notation=words.NATIVE),
     settings=Settings(modal=True),
-    io=Io(
-        wait_timeout=True, timers=1_000_000, groups=frozenset((GroupRule.COMPUTED, GroupRule.FREE, GroupRule.NUMBERED))
-    ),
+    io=Io(wait_timeout=True, timers=1_000_000, groups=frozenset((GroupRule.COMPUTED, GroupRule.NUMBERED))),
     data=Data(
         composites=frozenset((Composite.ARRAYS, Composite.ENUMS, Composite.RECORDS)),
         aggregates=frozenset((Aggregate.NAMED, Aggregate.PARTIAL)),

@@ -71,7 +71,7 @@ CAPABILITIES = Capabilities(
         blends=frozenset(("BlendDistance",)),
         rules=frozenset((SettingRule.ASKED_FRAME, SettingRule.READ_OVERRIDE)),
     ),
-    tasks=Tasks(operations=frozenset(("start", "stop", "pause", "resume")), places_beside=True),
+    tasks=Tasks(operations=frozenset(("start", "stop", "pause", "resume"))),
     io=Io(
         signal_prefixes={
             "digital_in": "di",

@@ -14,7 +14,6 @@ from rpl.passes.capabilities import (
     DataRule,
     Errors,
     Fault,
-    GroupRule,
     InterruptRule,
     Interrupts,
     Io,
@@ -119,7 +118,7 @@ CAPABILITIES = Capabilities(
         timers=tables.TIMERS,
         poll_s=0.016,
         number_data={kind: ((1, tables.MOST_SIGNALS, tables.SIGNALS[kind]),) for kind in ("digital_in", "digital_out")},
-        groups=frozenset((GroupRule.FREE,)),  # BITS n, 8: whose signals those are shows only when the program runs
+        groups=frozenset(),  # BITS n, 8: whose signals those are shows only when the program runs
     ),
     texts=Texts(
         rules=frozenset(

@@ -11,9 +11,6 @@ class GroupRule(StrEnum):
     """What a group of signals can be. Where signals have names (`signal_prefixes`), a group has one of its own; groups
     of which a part is used otherwise are written bit by bit."""
 
-    FREE = auto()
-    """It can be named by its first and last signal, or a pass or the writer finds a name for it."""
-
     COMPUTED = auto()
     """It may have computed numbers (else such groups of a constant width are written bit by bit, as where signals have
     names)."""
@@ -41,7 +38,7 @@ class Io:
     """Programs name signals that have numbers by data that holds these, at their head: of a kind, the first and the
     last number and what the data has more than the number (V+: 1 to 512 are inputs 1001 to 1512)."""
 
-    groups: frozenset[GroupRule] = frozenset((GroupRule.FREE, GroupRule.COMPUTED))
+    groups: frozenset[GroupRule] = frozenset((GroupRule.COMPUTED,))
 
     widest_group: int = 8
     """Bits of a group at most, where a program shows that eight are not enough."""

@@ -11,7 +11,7 @@ class Background(StrEnum):
 
     NO = auto()
     SHARED = auto()  # they see the data of the others
-    SEPARATE = auto()  # modules of their own that share persistent data by name
+    SEPARATE = auto()  # modules of their own that share persistent data by name; they can ask where the robot is
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +25,3 @@ class Tasks:
 
     moving: bool = True
     """A task that the program starts may move the robot."""
-
-    places_beside: bool = False
-    """A separate background task can ask where the robot is."""

@@ -18,7 +18,6 @@ from rpl.proof.wiring import wired_bits
 
 from .executed import EVERYTHING, context, passed, read, run
 
-SINGLE = replace(EVERYTHING, io=replace(EVERYTHING.io, groups=EVERYTHING.io.groups - {GroupRule.FREE}))
 PROGRAM = """.PROGRAM main()
         AUTO REAL n
         BITS 3,4 = 10
@@ -37,7 +36,7 @@ PROGRAM = """.PROGRAM main()
 
 def test_the_same_numbers() -> None:
     program = read(PROGRAM, "vplus")
-    after = passed(program, (groups_to_bits,), context(program, SINGLE))
+    after = passed(program, (groups_to_bits,), context(program, EVERYTHING))
     wanted = run(program).messages
     assert len(wanted) == 4
     assert run(after).messages == wanted
@@ -212,7 +211,7 @@ def test_waits_for_groups() -> None:
         for number, begin, end in CHANGES
     )
     program = read(WAITS)
-    after = passed(program, (groups_to_bits,), context(program, SINGLE))
+    after = passed(program, (groups_to_bits,), context(program, EVERYTHING))
     assert not [node for node in walk(*after.modules) if isinstance(node, ir.Signal) and node.last is not None]
     wanted, given = (run(one, inputs).outputs for one in (program, after))
     assert [(round(t, 1), name) for t, name, _ in given] == [(round(t, 1), name) for t, name, _ in wanted]
@@ -223,7 +222,7 @@ def test_waits_for_groups() -> None:
 def test_a_number_that_is_written_bit_by_bit_is_named_once_a_routine() -> None:
     """A cell that waits for an in-between number (3 to 4 goes over 2 and 0) meets it in the translation only."""
     program = read(PROGRAM, "vplus")
-    given = context(program, SINGLE)
+    given = context(program, EVERYTHING)
     passed(program, (groups_to_bits,), given)
     told = [item for item in given.diagnostics if item.code.name == "group-bit-by-bit"]
     assert [item.message.partition(" are")[0] for item in told] == ["the outputs 3 to 6"]

@@ -175,16 +175,13 @@ class _Maker:
                     yield from self.closure(home, one, seen)
 
     def check(self, module: ir.Module, routine: ir.Routine) -> None:
-        asks = self.context.capabilities.tasks.places_beside
         for node in walk(routine):
             match node:
-                case ir.Builtin(function=function) if self.separate and function.startswith("current_") and not asks:
-                    raise _UnfitError("it asks where the robot is")
                 case ir.System(name="null_frame" | "world") if self.seen_beside:
                     continue  # of a place that is seen
                 case ir.System(name="flag"):
                     continue  # flags belong to the whole controller
-                case ir.System(name=name) if asks and name in _PLACES:
+                case ir.System(name=name) if self.separate and name in _PLACES:
                     continue
                 case ir.System(name=name) if self.separate or not name.startswith(("timer", "actual_")):
                     raise _UnfitError(f"it uses {name.replace('_', ' ')}, which belongs to the task that moves")
