@@ -385,7 +385,7 @@ def _like_its_file(module: ir.Module, routine: ir.Routine) -> bool:
 def _called(program: ir.Program, caller: ir.Routine) -> set[str]:
     """Names that other routines call, themselves or by a text."""
     from rpl.ir.walk import walk
-    from rpl.passes.legalise.facts.heldtexts import named_by_texts
+    from rpl.passes.legalise.facts.values.heldtexts import named_by_texts
 
     names = named_by_texts(program)
     for module in program.modules:

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.legalise.facts.externalaxes import leading, used_externals
-from rpl.passes.legalise.facts.pulsecounts import assumed
+from rpl.passes.legalise.facts.motion.externalaxes import leading, used_externals
+from rpl.passes.legalise.facts.motion.pulsecounts import assumed
 from rpl.passes.legalise.facts.usage import doing
 from rpl.source import NOWHERE
 from rpl.writing.ledger import EmissionLedger

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.facts.entries import INITIALISE
-from rpl.passes.legalise.facts.externalaxes import leading, used_externals
+from rpl.passes.legalise.facts.motion.externalaxes import leading, used_externals
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import NOWHERE, Origin
 from rpl.writing.beside import report_poses

@@ -30,7 +30,7 @@ from rpl.cli.output import (
 from rpl.cli.reports import report_options, reports_of, show_reports
 from rpl.diagnostics import Code, Diagnostic, Diagnostics, Severity
 from rpl.errors import UsageError
-from rpl.passes.legalise.facts.pulsecounts import report_assumed, report_stations
+from rpl.passes.legalise.facts.motion.pulsecounts import report_assumed, report_stations
 from rpl.runtime.trace import RunInterrupted
 from rpl.showing import printable
 

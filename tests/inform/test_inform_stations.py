@@ -7,7 +7,7 @@ from rpl.cell import parse_cell
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.emulator.model import load_robot
 from rpl.emulator.rotations import FloatArray, pose_matrix
-from rpl.passes.legalise.facts.pulsecounts import report_stations
+from rpl.passes.legalise.facts.motion.pulsecounts import report_stations
 from rpl.project import ReadProgram, read_sources
 from rpl.proof.prove import prove_programs
 from rpl.simulation import run_program

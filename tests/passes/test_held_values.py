@@ -7,7 +7,7 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import walk
-from rpl.passes.legalise.facts.heldvalues import HeldValues, KnownData
+from rpl.passes.legalise.facts.values.heldvalues import HeldValues, KnownData
 from rpl.project import read_sources
 from rpl.source import source_from_text
 

@@ -1,7 +1,7 @@
 """Which move may come behind which: in the order of the program, whatever numbers the moves have in memory."""
 
 from rpl import ir
-from rpl.passes.legalise.facts.moveorder import BEFORE, STANDS, UNKNOWN, _Rows
+from rpl.passes.legalise.facts.motion.moveorder import BEFORE, STANDS, UNKNOWN, _Rows
 
 
 def test_moves_come_in_the_order_of_the_program() -> None:

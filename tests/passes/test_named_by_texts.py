@@ -6,7 +6,7 @@ import pytest
 
 from rpl import ir, registry
 from rpl.diagnostics import Diagnostics
-from rpl.passes.legalise.facts.heldtexts import named_by_texts
+from rpl.passes.legalise.facts.values.heldtexts import named_by_texts
 from rpl.passes.legalise.rewriting.startdata import entries_of
 from rpl.simulation import entry_name
 from rpl.source import source_from_text

@@ -14,7 +14,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.facts.framenumbers import Table, is_none, key_of, names_in, own_number, tables_of
+from rpl.passes.legalise.facts.values.framenumbers import Table, is_none, key_of, names_in, own_number, tables_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising

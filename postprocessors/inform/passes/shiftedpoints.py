@@ -15,8 +15,8 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.facts.taughtvalues import tell_written
 from rpl.passes.legalise.facts.usage import usage_of
+from rpl.passes.legalise.facts.values.taughtvalues import tell_written
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames
 from rpl.passes.legalise.rewriting.jumps import inside

@@ -12,9 +12,9 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.entries import INITIALISE
-from rpl.passes.legalise.facts.firstreads import read_first
 from rpl.passes.legalise.facts.liveness import Names
 from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.legalise.facts.values.firstreads import read_first
 from rpl.passes.legalise.rewriting.startdata import entries_of
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE

@@ -17,7 +17,8 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.framenumbers import (
+from rpl.passes.legalise.facts.mentioned import mentioned
+from rpl.passes.legalise.facts.values.framenumbers import (
     Element,
     Key,
     element_of,
@@ -28,7 +29,6 @@ from rpl.passes.legalise.facts.framenumbers import (
     own_number,
     said_numbers,
 )
-from rpl.passes.legalise.facts.mentioned import mentioned
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in

@@ -7,7 +7,7 @@ from __future__ import annotations
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.advance import touches
+from rpl.passes.legalise.facts.motion.advance import touches
 from rpl.passes.legalise.rewriting.beside import tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside

@@ -11,7 +11,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.facts.externalaxes import has_external_axes
+from rpl.passes.legalise.facts.motion.externalaxes import has_external_axes
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames, with_data
 from rpl.passes.legalise.stages import legalising

@@ -16,8 +16,8 @@ from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.forward import reactions
-from rpl.passes.legalise.facts.framenumbers import Table, is_none, key_of, names_in, tables_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, in_frame
+from rpl.passes.legalise.facts.values.framenumbers import Table, is_none, key_of, names_in, tables_of
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.jumps import inside

@@ -16,9 +16,9 @@ from rpl import ir
 from rpl.controllers import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.cornersizes import written_size
-from rpl.passes.legalise.facts.moveorder import Pair, pairs_of
-from rpl.passes.legalise.facts.ways import Ways, between
+from rpl.passes.legalise.facts.motion.cornersizes import written_size
+from rpl.passes.legalise.facts.motion.moveorder import Pair, pairs_of
+from rpl.passes.legalise.facts.motion.ways import Ways, between
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.jumps import inside

@@ -11,7 +11,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.cornerways import Ways
+from rpl.passes.legalise.facts.motion.cornerways import Ways
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising

@@ -5,7 +5,7 @@ import pytest
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.source.untyped import drop_untyped
+from rpl.passes.legalise.source.data.untyped import drop_untyped
 
 from .helpers import RAPID
 

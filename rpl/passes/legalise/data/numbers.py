@@ -15,7 +15,7 @@ from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import repeatable
-from rpl.passes.legalise.facts.wholes import Wholes, place_key
+from rpl.passes.legalise.facts.values.wholes import Wholes, place_key
 from rpl.passes.legalise.rewriting.library import Library
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising

@@ -11,7 +11,7 @@ from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import Fault
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.wholes import Wholes
+from rpl.passes.legalise.facts.values.wholes import Wholes
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.routines.subscriptchecks import Checks
 from rpl.passes.legalise.stages import legalising

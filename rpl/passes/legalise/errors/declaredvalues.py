@@ -9,8 +9,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.heldvalues import KnownData
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.facts.values.heldvalues import KnownData
 from rpl.passes.legalise.stages import legalising
 
 _WRITTEN = (ir.Aggregate, ir.IntLiteral, ir.RealLiteral, ir.BoolLiteral, ir.TextLiteral, ir.EnumLiteral, ir.Unary)

@@ -14,9 +14,9 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.fold import constant, literal
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.heldvalues import Held, HeldValues, KnownData, component
 from rpl.passes.legalise.facts.mentioned import is_linked
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.facts.values.heldvalues import Held, HeldValues, KnownData, component
 from rpl.passes.legalise.rewriting.editing import edit_bodies, expansion, map_body
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts

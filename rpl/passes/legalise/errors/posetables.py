@@ -19,7 +19,7 @@ from rpl.passes import rigid
 from rpl.passes.capabilities import MoveSetting, Settings
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.framenumbers import Element, element_of, said_numbers
+from rpl.passes.legalise.facts.values.framenumbers import Element, element_of, said_numbers
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.unused import without_unused

@@ -9,8 +9,8 @@ from itertools import chain
 
 from rpl import ir
 from rpl.ir.walk import bodies
-from rpl.passes.legalise.facts.heldtexts import named_by_texts
 from rpl.passes.legalise.facts.usage import each_expression
+from rpl.passes.legalise.facts.values.heldtexts import named_by_texts
 from rpl.passes.legalise.kept import of_program
 from rpl.passes.legalise.kinds import gathering, kinds_within, walk_for
 

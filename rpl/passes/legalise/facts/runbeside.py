@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from rpl import ir
 from rpl.ir.walk import bodies, walk
-from rpl.passes.legalise.facts.advance import is_flag
+from rpl.passes.legalise.facts.motion.advance import is_flag
 from rpl.passes.legalise.facts.usage import base_name
 
 _BY_TIME = frozenset(("clock_seconds", "time_text", "date_text", "random", "text_value"))

@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.facts.heldtexts import known_calls
 from rpl.passes.legalise.facts.inforce import InForce
 from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
+from rpl.passes.legalise.facts.values.heldtexts import known_calls
 from rpl.passes.legalise.kinds import kinds_within
 from rpl.passes.scope import Scope
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.advance import UNKNOWN_BEHIND, looks
+from rpl.passes.legalise.facts.motion.advance import UNKNOWN_BEHIND, looks
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising

@@ -15,8 +15,8 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.advance import looks
 from rpl.passes.legalise.facts.effects import blocks, is_constant
+from rpl.passes.legalise.facts.motion.advance import looks
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising

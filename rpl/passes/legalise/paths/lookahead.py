@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
-from rpl.passes.legalise.facts.advance import touches
+from rpl.passes.legalise.facts.motion.advance import touches
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts

@@ -15,7 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant, constant_number, lasting
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.taughtvalues import WRITTEN, taught_names
+from rpl.passes.legalise.facts.values.taughtvalues import WRITTEN, taught_names
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in

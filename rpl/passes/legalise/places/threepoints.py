@@ -21,9 +21,9 @@ from rpl.passes.capabilities import PathRule
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
-from rpl.passes.legalise.facts.straightplaces import StraightPlaces
-from rpl.passes.legalise.facts.taughtvalues import tell_written
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.facts.values.straightplaces import StraightPlaces
+from rpl.passes.legalise.facts.values.taughtvalues import tell_written
 from rpl.passes.legalise.kinds import has_arcs, walk_for
 from rpl.passes.legalise.places.arcends import COMPUTED, computed_arc
 from rpl.passes.legalise.places.arctriggers import placeable, shared_out

@@ -17,7 +17,7 @@ from rpl.passes.fold import constant, lasting, real
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import repeatable
 from rpl.passes.legalise.facts.entries import routines_beside
-from rpl.passes.legalise.facts.externalaxes import has_external_axes, is_unused
+from rpl.passes.legalise.facts.motion.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.records.records import RECORDS, Records
 from rpl.passes.legalise.rewriting.formulas import composed, minus, number, plus, times
 from rpl.passes.legalise.rewriting.library import Library

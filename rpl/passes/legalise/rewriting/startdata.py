@@ -8,8 +8,8 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.entries import INITIALISE, moving_entries, never_called, started_tasks
-from rpl.passes.legalise.facts.heldtexts import named_by_texts
 from rpl.passes.legalise.facts.usage import base_name, doing
+from rpl.passes.legalise.facts.values.heldtexts import named_by_texts
 from rpl.source import NOWHERE
 
 # So many assignments may stand in the routine that starts; more go into a routine of their own.

@@ -13,9 +13,9 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.facts.beginning import settled_at_start
 from rpl.passes.legalise.facts.effects import Effects
 from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.legalise.facts.values.beginning import settled_at_start
 from rpl.passes.legalise.kinds import holds_none
 from rpl.passes.legalise.rewriting.bodies import Bodies, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies

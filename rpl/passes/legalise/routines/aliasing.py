@@ -20,7 +20,7 @@ from rpl.passes.capabilities import Parameters, Passing
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import blocks
-from rpl.passes.legalise.facts.heldtexts import HeldTexts, named_by
+from rpl.passes.legalise.facts.values.heldtexts import HeldTexts, named_by
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising

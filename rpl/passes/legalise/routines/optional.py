@@ -19,7 +19,7 @@ from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, expressions_in, statements_in
 from rpl.passes.legalise.facts.entries import calls_of, never_called, reached
-from rpl.passes.legalise.facts.heldtexts import HeldTexts, as_written_before, text_beginning
+from rpl.passes.legalise.facts.values.heldtexts import HeldTexts, as_written_before, text_beginning
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.support import default_value

@@ -13,8 +13,8 @@ from rpl.passes.capabilities import Fault
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import children
-from rpl.passes.legalise.facts.intervals import unproven
 from rpl.passes.legalise.facts.raising import raising_of
+from rpl.passes.legalise.facts.values.intervals import unproven
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion

@@ -13,7 +13,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.advance import SEEN, UNKNOWN_BEHIND, looks, touches
+from rpl.passes.legalise.facts.motion.advance import SEEN, UNKNOWN_BEHIND, looks, touches
 from rpl.passes.legalise.rewriting.beside import Beside, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside

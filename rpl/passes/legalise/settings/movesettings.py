@@ -14,7 +14,7 @@ from rpl import ir
 from rpl.diagnostics import Code
 from rpl.passes.capabilities import MoveSetting, SettingRule
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.saidaccelerations import SAID, Accelerations
+from rpl.passes.legalise.facts.motion.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.facts.settingsinforce import SETTINGS, SettingsInForce, State
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all

@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.passes.capabilities import MoveSetting
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.saidaccelerations import number_of
+from rpl.passes.legalise.facts.motion.saidaccelerations import number_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body

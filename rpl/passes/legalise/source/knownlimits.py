@@ -10,7 +10,7 @@ from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.heldvalues import Held, HeldValues, KnownData
+from rpl.passes.legalise.facts.values.heldvalues import Held, HeldValues, KnownData
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.unreaddata import without_unread

@@ -17,7 +17,7 @@ from rpl.ir.walk import statements, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import children
-from rpl.passes.legalise.facts.wholes import Key, Wholes, place_key
+from rpl.passes.legalise.facts.values.wholes import Key, Wholes, place_key
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of

@@ -5,18 +5,18 @@ Behind it a program says the same in neutral words.
 from __future__ import annotations
 
 from rpl.passes.legalise.source.countedloops import counted_loops
-from rpl.passes.legalise.source.cyclicflags import cyclic_flags
+from rpl.passes.legalise.source.data.fixeddata import fixed_data
+from rpl.passes.legalise.source.data.grownarrays import grown_arrays
+from rpl.passes.legalise.source.data.keptvalues import kept_values_known
+from rpl.passes.legalise.source.data.labellednames import labels_as_names
+from rpl.passes.legalise.source.data.loadvariables import load_variables
+from rpl.passes.legalise.source.data.ownnames import names_of_local_routines
+from rpl.passes.legalise.source.data.undeclareddata import undeclared_data
+from rpl.passes.legalise.source.data.untyped import drop_untyped
 from rpl.passes.legalise.source.emptyreactions import without_empty_reactions
-from rpl.passes.legalise.source.fixeddata import fixed_data
-from rpl.passes.legalise.source.grownarrays import grown_arrays
 from rpl.passes.legalise.source.jumpsasblocks import jumps_as_blocks
-from rpl.passes.legalise.source.keptvalues import kept_values_known
 from rpl.passes.legalise.source.knownlimits import known_limits
-from rpl.passes.legalise.source.labellednames import labels_as_names
-from rpl.passes.legalise.source.loadvariables import load_variables
-from rpl.passes.legalise.source.namedflags import named_flags
 from rpl.passes.legalise.source.neutralfunctions import neutral_functions
-from rpl.passes.legalise.source.ownnames import names_of_local_routines
 from rpl.passes.legalise.source.places.copiedflags import copied_flags
 from rpl.passes.legalise.source.places.displacements import displacements
 from rpl.passes.legalise.source.places.elementwise import elementwise
@@ -31,10 +31,12 @@ from rpl.passes.legalise.source.places.shiftedplaces import shifted_places
 from rpl.passes.legalise.source.places.unknownpulses import unknown_pulses
 from rpl.passes.legalise.source.precisions import precisions
 from rpl.passes.legalise.source.rates import rates
-from rpl.passes.legalise.source.readports import read_ports
 from rpl.passes.legalise.source.sameunits import same_units
 from rpl.passes.legalise.source.settingparts import whole_settings
-from rpl.passes.legalise.source.signalwords import signal_words
+from rpl.passes.legalise.source.signals.cyclicflags import cyclic_flags
+from rpl.passes.legalise.source.signals.namedflags import named_flags
+from rpl.passes.legalise.source.signals.readports import read_ports
+from rpl.passes.legalise.source.signals.signalwords import signal_words
 from rpl.passes.legalise.source.sourcelayout import source_layout
 from rpl.passes.legalise.source.steptimes import step_times
 from rpl.passes.legalise.source.texts.leadingnumbers import leading_numbers
@@ -44,8 +46,6 @@ from rpl.passes.legalise.source.texts.textlengths import text_lengths
 from rpl.passes.legalise.source.texts.textorders import text_orders
 from rpl.passes.legalise.source.texts.wholetexts import whole_texts
 from rpl.passes.legalise.source.timedwaits import timed_waits
-from rpl.passes.legalise.source.undeclareddata import undeclared_data
-from rpl.passes.legalise.source.untyped import drop_untyped
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
 from rpl.passes.legalise.source.ways.splines import straight_splines, without_path_rules

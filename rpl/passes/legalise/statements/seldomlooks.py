@@ -10,7 +10,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.advance import looks
+from rpl.passes.legalise.facts.motion.advance import looks
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 

@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Background
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.source.ownnames import own_names
+from rpl.passes.legalise.source.data.ownnames import own_names
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Fold, rules_of
 

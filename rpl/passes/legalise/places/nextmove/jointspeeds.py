@@ -21,8 +21,8 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context, array, rules_of
+from rpl.passes.legalise.facts.motion.whereabouts import NOWHERE_KNOWN, Stand, Whereabouts
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
-from rpl.passes.legalise.facts.whereabouts import NOWHERE_KNOWN, Stand, Whereabouts
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.jumps import inside

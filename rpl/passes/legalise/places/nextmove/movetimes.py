@@ -18,8 +18,8 @@ from rpl.passes.capabilities import MoveSetting, PathRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects, blocks
+from rpl.passes.legalise.facts.motion.whereabouts import Way, Whereabouts
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce, State
-from rpl.passes.legalise.facts.whereabouts import Way, Whereabouts
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside

@@ -16,7 +16,7 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
-from rpl.passes.legalise.facts.saidaccelerations import number_of
+from rpl.passes.legalise.facts.motion.saidaccelerations import number_of
 from rpl.passes.legalise.facts.settingsinforce import SCALED, SettingsInForce, State
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising

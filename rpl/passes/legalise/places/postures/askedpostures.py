@@ -16,8 +16,8 @@ from rpl.passes.capabilities import Postures
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.framesinforce import FramesInForce
-from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.facts.usage import doing
+from rpl.passes.legalise.facts.values.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising

@@ -17,8 +17,8 @@ from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
-from rpl.passes.legalise.facts.whereabouts import Whereabouts
+from rpl.passes.legalise.facts.motion.whereabouts import Whereabouts
+from rpl.passes.legalise.facts.values.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising

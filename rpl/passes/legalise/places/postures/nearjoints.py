@@ -18,7 +18,7 @@ from rpl.passes.capabilities import Postures
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.framesinforce import FramesInForce
-from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
+from rpl.passes.legalise.facts.values.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in

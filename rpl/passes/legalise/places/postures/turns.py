@@ -17,8 +17,8 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, array
-from rpl.passes.legalise.facts.taughtvalues import JointsOfPlaces
-from rpl.passes.legalise.facts.whereabouts import Joints, Stand, Whereabouts
+from rpl.passes.legalise.facts.motion.whereabouts import Joints, Stand, Whereabouts
+from rpl.passes.legalise.facts.values.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising

@@ -11,7 +11,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.advance import looks, touches
+from rpl.passes.legalise.facts.motion.advance import looks, touches
 from rpl.passes.legalise.facts.usage import doing, usage_of
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.jumps import inside

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.advance import touches
-from rpl.passes.legalise.facts.cornerways import Ways
+from rpl.passes.legalise.facts.motion.advance import touches
+from rpl.passes.legalise.facts.motion.cornerways import Ways
 from rpl.passes.legalise.settings.corners.cornersteps import STOPS_BEHIND
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope

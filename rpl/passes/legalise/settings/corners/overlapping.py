@@ -12,7 +12,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.cornersizes import written_size
+from rpl.passes.legalise.facts.motion.cornersizes import written_size
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising

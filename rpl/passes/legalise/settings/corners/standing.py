@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.advance import is_flag, touches
 from rpl.passes.legalise.facts.forward import Forward, beside
+from rpl.passes.legalise.facts.motion.advance import is_flag, touches
 from rpl.passes.legalise.facts.runbeside import FLAGS, RunBeside, assigned_name
 from rpl.passes.legalise.facts.usage import base_name, each_expression, each_statement
 from rpl.passes.legalise.interrupts.resumes import left_by_resumes

@@ -11,7 +11,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.externalaxes import has_external_axes, is_unused
+from rpl.passes.legalise.facts.motion.externalaxes import has_external_axes, is_unused
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered

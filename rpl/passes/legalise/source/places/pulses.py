@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from rpl import ir
 from rpl.passes import rigid
 from rpl.passes.legalise.context import Arm, Context
-from rpl.passes.legalise.facts.pulsecounts import EXTERNAL, count_of, report_assumed
+from rpl.passes.legalise.facts.motion.pulsecounts import EXTERNAL, count_of, report_assumed
 from rpl.passes.legalise.kinds import rewrite_for
 from rpl.passes.legalise.stages import legalising
 

@@ -15,7 +15,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.pulsecounts import count_of
+from rpl.passes.legalise.facts.motion.pulsecounts import count_of
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.stages import legalising
 

@@ -17,7 +17,7 @@ from rpl.ir.walk import bodies, children, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.effects import blocks
-from rpl.passes.legalise.facts.wholes import Key, place_key
+from rpl.passes.legalise.facts.values.wholes import Key, place_key
 from rpl.passes.legalise.rewriting.jumps import LOOPS
 from rpl.passes.legalise.rewriting.textroom import declared_types, with_room
 from rpl.passes.legalise.stages import legalising

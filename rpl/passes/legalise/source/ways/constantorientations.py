@@ -16,7 +16,7 @@ from rpl.ir.walk import walk
 from rpl.passes.capabilities import PathRule
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.moveorder import pairs_of
+from rpl.passes.legalise.facts.motion.moveorder import pairs_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body

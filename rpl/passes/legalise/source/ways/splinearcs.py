@@ -18,7 +18,7 @@ from rpl.passes.capabilities import PathRule
 from rpl.passes.curves import SAME_MM, Leg, Segment, block, circle_through, rotation_of_vector, vector_of_rotation
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.taughtvalues import tell_written
+from rpl.passes.legalise.facts.values.taughtvalues import tell_written
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.places.partialplaces import may_move
 from rpl.passes.legalise.source.ways.curvepoints import AS_POINTS, SAME_CURVE_MM, apart, through_points

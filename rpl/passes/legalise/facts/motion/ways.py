@@ -14,8 +14,8 @@ from rpl.passes import rigid
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import Effects, blocks
+from rpl.passes.legalise.facts.motion.whereabouts import Whereabouts
 from rpl.passes.legalise.facts.usage import assigned_in
-from rpl.passes.legalise.facts.whereabouts import Whereabouts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.passes.values import Value, pose_of

@@ -19,7 +19,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
-from rpl.passes.legalise.source.signalparameters import signals_as_parameters
+from rpl.passes.legalise.source.signals.signalparameters import signals_as_parameters
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope

@@ -1,0 +1,1 @@
+"""Data of the source: what it is called, what it holds where no file says so, what is fixed."""

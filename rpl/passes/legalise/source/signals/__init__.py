@@ -1,0 +1,1 @@
+"""Signals and flags as only the source has them."""
