@@ -16,6 +16,7 @@ SETUP = (
     + "PLACES[i].Z=z\nEND\n"
 )
 FUNCTION = "DEFFCT FRAME moved(f:IN)\nFRAME f\nf.Z=f.Z+100.0\nRETURN f\nENDFCT\n"
+WHOLE = "PLACES[2]={X 0.0,Y 0.0,Z 5.0,A 0.0,B 0.0,C 0.0}\n"
 MAKES = "setup(2,900.0)\nTOOL_DATA[2]=PLACES[2]\n"
 
 
@@ -33,6 +34,8 @@ MAKES = "setup(2,900.0)\nTOOL_DATA[2]=PLACES[2]\n"
         ("setup(2,900.0)\nIF $IN[1] THEN\nPLACES[2].Z=1.0\nENDIF\nTOOL_DATA[2]=PLACES[2]\n$TOOL=TOOL_DATA[2]", None),
         ("setup(2,900.0)\naway:\nTOOL_DATA[2]=PLACES[2]\n$TOOL=TOOL_DATA[2]\nGOTO away", None),
         (MAKES + "$TOOL=TOOL_DATA[2]\nTOOL_DATA[2].Z=3.0", None),
+        (WHOLE + "PLACES[2].Z=7.0\nTOOL_DATA[2]=PLACES[2]\n$TOOL=TOOL_DATA[2]", 7.0),
+        (WHOLE + "PLACES[2].Z=$TIMER[1]\nTOOL_DATA[2]=PLACES[2]\n$TOOL=TOOL_DATA[2]", None),  # the run decides
         (MAKES + "$TOOL=TOOL_DATA[2]\nlate( )", None),
     ],
 )

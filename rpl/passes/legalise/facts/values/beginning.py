@@ -207,6 +207,7 @@ class _Start:
             if part and not old[3]:
                 self.spread(old)
             self.known.pop(old, None)
+        self.known.pop(place, None)  # the spread gave the component its old value
         if number == 0 and not part and name in self.wanted and level.once:
             self.made.setdefault(id(statement), []).append(value)
             self.done.setdefault((name, indices), set()).add(id(statement))
