@@ -52,3 +52,16 @@ def test_a_label_of_another_language_keeps_its_remark_in_the_brackets() -> None:
     lines = _written(back, "tp").splitlines()
     assert any("LBL[20:done]" in line for line in lines)
     assert not any("!done" in line for line in lines)
+
+
+@pytest.mark.parametrize("target", ["krl", "vplus", "rapid"])
+def test_the_text_of_a_loop_comes_back(target: str) -> None:
+    files = [one for one in translate_program(_read(), target, ROBOT, None, Diagnostics()).files if _is_text(one.path)]
+    back = read_sources([source_from_bytes(one.path, one.data) for one in files], target, Diagnostics())
+    lines = _written(back, "tp")
+    assert ":next part]" in lines
+    assert ":done]" in lines
+
+
+def _is_text(path: str) -> bool:
+    return not path.endswith(".toml")

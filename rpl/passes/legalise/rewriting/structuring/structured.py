@@ -21,6 +21,7 @@ from rpl.passes.legalise.rewriting.editing import Editor, expansion, passes_on
 from rpl.passes.legalise.rewriting.jumps import entered, goes_on, inside, labels, without_labels
 from rpl.passes.legalise.rewriting.structuring.flowgraph import Builder
 from rpl.passes.legalise.rewriting.structuring.regions import Regions
+from rpl.source import Origin
 
 INTO_FOR = code(
     "jump-into-counting-loop",
@@ -131,9 +132,16 @@ class _Tidy:
 
     # ---- loops
 
-    def loop(self, statement: ir.Loop) -> ir.Statement:
-        """A check at the beginning is a While's, one at the end a Repeat's."""
+    def loop(self, statement: ir.Loop) -> ir.Loop | ir.While | ir.Repeat:
+        """A check at the beginning is a While's, one at the end a Repeat's. What stands on the line of the label that
+        the loop begins with is said of the loop."""
         match statement.body:
+            case (ir.Nothing(origin=said), *rest) if (
+                rest and said.comments and all(one.behind for one in said.comments)
+            ):
+                done = self.loop(replace(statement, body=tuple(rest)))
+                comments = (*done.origin.comments, *said.comments)
+                return replace(done, origin=replace(said, comments=comments))
             case (ir.If(branches=((condition, (ir.ExitLoop(),)),), otherwise=(), origin=origin), *rest):
                 if "While" in self.has and not origin.comments:
                     return ir.While(opposite(condition), tuple(rest), origin=origin)
@@ -141,6 +149,11 @@ class _Tidy:
                 if "Repeat" in self.has and not passes_on(tuple(rest)) and not origin.comments:
                     return ir.Repeat(condition, tuple(rest), origin=origin)
         return statement
+
+
+def _is_behind(said: Origin) -> bool:
+    """Are these remarks that stand on the line of a statement?"""
+    return bool(said.comments) and all(one.behind for one in said.comments)
 
 
 def _terms(condition: ir.Expression) -> list[ir.Expression]:
