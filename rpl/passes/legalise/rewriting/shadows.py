@@ -6,7 +6,7 @@ Before the first setting the variable holds what the source's controller starts 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from rpl import ir
@@ -76,11 +76,13 @@ def with_shadows(program: ir.Program, context: Context, shadows: Mapping[str, Sh
         shadow = shadows.get(target.name)
         return (statement,) if shadow is None else shadow.beside(statement)
 
-    def entered(statement: ir.Statement) -> ir.Statement:
-        body: Callable[[ir.Body], ir.Body] = lambda inner: map_body(inner, change)  # noqa: E731
-        return rewrite_parts(statement, value, body) if read else inside(statement, body)
+    def inner(body: ir.Body) -> ir.Body:
+        return map_body(body, change)
 
-    program = edit_all(program, lambda body: map_body(body, change))
+    def entered(statement: ir.Statement) -> ir.Statement:
+        return rewrite_parts(statement, value, inner) if read else inside(statement, inner)
+
+    program = edit_all(program, inner)
     data = [shadow.variable for shadow in shadows.values()]
     return with_support(program, context, data, (), program.modules[0].task)
 

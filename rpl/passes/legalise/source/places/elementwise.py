@@ -42,20 +42,20 @@ def elementwise(program: ir.Program, context: Context) -> ir.Program:
         can.places.move_functions & set(_MOVED)
     )  # what only a move's target may be is lacking elsewhere
     lacking = {*_OPERATORS, *_MOVED, "pose_of"} - alone
-    return _Worker(context, frozenset(lacking)).program(program)
+    return _Worker(program, context, frozenset(lacking)).program()
 
 
 @dataclass(slots=True)
 class _Worker:
+    source: ir.Program
     context: Context
     lacking: frozenset[str]
     names: dict[tuple[str, ir.Type, ir.Type | None], str] = field(default_factory=dict)
     routines: list[ir.Routine] = field(default_factory=list)
-    source: ir.Program = field(default_factory=lambda: ir.Program(()))
-    plain: frozenset[str] | None = None
+    plain: frozenset[str] | None = None  # `components_only`, when it has been asked for
 
-    def program(self, program: ir.Program) -> ir.Program:
-        self.source = program
+    def program(self) -> ir.Program:
+        program = self.source
         scopes = ProgramScope(program)
         modules = []
         for module in program.modules:
