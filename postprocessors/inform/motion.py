@@ -99,6 +99,7 @@ class Motion:
     line_of_last: int | None = None
     stands: bool = False  # the move before ended in a stop
     running: bool = False  # the move before has NWAIT
+    exact: bool = False  # it ends in a stop, as soon as it is waited for
     corners: bool = False  # moves of this program go round corners, and this job does not run beside it
     shift: str = ""  # what the move at hand is shifted by, and the axes
     before: Goal | None = None  # where the move before the last one went, when that was an arc
@@ -112,6 +113,10 @@ class Motion:
         """Neither place nor line of the last move are known here."""
         self.last, self.line_of_last, self.stands, self.before = None, None, False, None
         self.positions.in_tools.clear()
+
+    def arrive(self) -> None:
+        """Behind CWAIT."""
+        self.running, self.stands = False, self.exact
 
     def report_once(self, about: Code, origin: Origin, key: str = "", **arguments: object) -> None:
         if (about, key) not in self.reported:
@@ -144,7 +149,8 @@ class Motion:
         self.lines.append(line if move.relative is not None else self.with_axes(line, goal.place, beside))
         self.before = self.last if self.last is not None and self.last.arc else None
         goal.arc = move.kind == "circular"
-        self.last, self.stands, self.running = goal, blend[:1] == ["PL=0"] and not move.concurrent, move.concurrent
+        self.last, self.exact, self.running = goal, blend[:1] == ["PL=0"], move.concurrent
+        self.stands = self.exact and not move.concurrent
         self.line_of_last = len(done) + len(self.lines) - 1
         self.positions.job.moves = True
         if self.shift:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 from rpl import ir
@@ -19,7 +19,7 @@ from .conditions import alternatives, single, text
 from .labels import Labels
 from .motion import Motion
 from .operands import constant, element, is_digital, operand, signal, variable
-from .pathevents import parts_of
+from .passes.cutmoves import LOST
 from .texts import ascii_text, remarks
 
 GUARDED = code(
@@ -55,7 +55,8 @@ _SLOW_MM_S = 100.0  # of a move by nothing
 
 class Printer(StatementPrinter[str]):
     """Prints the body of one job. `jobs`: routine, folded -> job; `tasks`: job -> sub task, of the whole program;
-    `moving`: routines, folded, that move the robot."""
+    `moving`: routines, folded, that move the robot; `refused`: why a move (by identity) has actions that cannot be
+    said."""
 
     guarded, dialect = GUARDED, "inform"
 
@@ -67,14 +68,15 @@ class Printer(StatementPrinter[str]):
         jobs: Mapping[str, str],
         tasks: dict[str, str],
         moving: frozenset[str],
+        refused: Mapping[int, str],
         ledger: EmissionLedger,
         diagnostics: Diagnostics,
     ) -> None:
         super().__init__(ledger, diagnostics)
         self.assignments, self.motion, self.labels = assignments, motion, labels
         self.jobs, self.tasks, self.moving = jobs, tasks, moving
+        self.refused = refused
         self.may_move = Anywhere(self.moves)
-        self.going = False  # the last move has NWAIT: what stands behind it is done on its way
 
     # ---- lines and remarks
 
@@ -105,13 +107,10 @@ class Printer(StatementPrinter[str]):
                 self.ledger.merged(statement)
                 continue
             self.statement(statement)
-        self.arrive()
 
     def statement(self, statement: ir.Statement) -> None:
         """One statement, or its guarded stop."""
         self.assignments.registers.begin()
-        if not isinstance(statement, ir.Move | ir.Nothing | ir.Trigger):
-            self.arrive()
         super().statement(statement)
 
     def stop(self) -> None:
@@ -171,7 +170,7 @@ class Printer(StatementPrinter[str]):
             case ir.Halt(kind=kind) if kind in _HALTS:
                 return _HALTS[kind]
             case ir.WaitForMotion() if self.motion.running:
-                self.motion.running = False
+                self.motion.arrive()
                 return "CWAIT"
             case ir.WaitForMotion():
                 # not a move: it waits for the moves before it
@@ -317,54 +316,10 @@ class Printer(StatementPrinter[str]):
     # ---- motion
 
     def move(self, move: ir.Move) -> None:
-        parts = parts_of(move, self.motion)
-        self.comments_only(move.origin)
-        first = parts.begun
-        if first and not parts.later and (parts.ended or parts.cuts or self.motion.stands):
-            self.arrive()
-            self.actions(first)  # behind the move before, which may go round its corner
-            first = []
-        for cut, actions in (*parts.cuts, (parts.last or replace(move, triggers=()), parts.ended)):
-            lines = self.motion.move(cut, self.lines)
-            self.going = bool(first or parts.later) and not cut.concurrent
-            if self.going:
-                lines[-1] += " NWAIT"
-            self.put(lines)
-            self.actions(first)
-            self.timed(parts.later, move.origin)
-            if actions:
-                self.arrive()
-            self.actions(actions)
-            if actions is parts.ended and (first or actions or parts.later):
-                self.motion.line_of_last = None
-            first = []
-        for trigger in move.triggers:
-            if isinstance(trigger, ir.Trigger):
-                self.ledger.merged(trigger)
+        if move.triggers:
+            raise CannotSayError(self.refused.get(id(move), "its place is not known"), LOST)
+        self.put(self.motion.move(move, self.lines), move.origin)
         self.outcome(move)
-
-    def timed(self, events: Sequence[tuple[ir.Expression, ir.Assign | ir.CallRoutine]], origin: Origin) -> None:
-        """Actions each some time behind the one before, while the robot moves."""
-        for delay, action in events:
-            if constant(delay) != 0:
-                self.line(f"TIMER {self.time(delay, origin)}")
-            self.action(action)
-
-    def arrive(self) -> None:
-        """Behind a move with NWAIT the program goes on only where the robot has arrived."""
-        if self.going:
-            self.line("CWAIT")
-            self.going = False
-
-    def actions(self, actions: Sequence[ir.Assign | ir.CallRoutine]) -> None:
-        for action in actions:
-            self.action(action)
-
-    def action(self, action: ir.Assign | ir.CallRoutine) -> None:
-        if isinstance(action, ir.CallRoutine):
-            self.line(self.call(action))
-        else:
-            self.put(self.assignments.assign(action))
 
     def outcome(self, move: ir.Move) -> None:
         """Whether and where a search found its signal."""

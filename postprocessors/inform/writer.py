@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -27,6 +27,7 @@ from .job import Job, winding
 from .labels import Labels
 from .motion import Motion, joined_shifts
 from .operands import Registers, element, numbered, selected
+from .passes.cutmoves import cut_moves
 from .places import WORLD, Constants, Position
 from .positions import Positions
 from .statements import Printer
@@ -69,7 +70,8 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     if same is not None and not context.templates:
         return same
     ledger = EmissionLedger()
-    writer = _Writer(program, context, ledger)
+    program, refused = cut_moves(program, context)
+    writer = _Writer(program, context, ledger, refused)
     jobs = [job for module in program.modules for job in writer.module(module)]
     writer.finish(jobs)
     ledger.check(program)
@@ -79,8 +81,11 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
 
 
 class _Writer:
-    def __init__(self, program: ir.Program, context: WriteContext, ledger: EmissionLedger) -> None:
+    def __init__(
+        self, program: ir.Program, context: WriteContext, ledger: EmissionLedger, refused: Mapping[int, str]
+    ) -> None:
         self.program, self.context, self.ledger = program, context, ledger
+        self.refused = refused
         self.diagnostics = context.diagnostics
         self.registers = Registers.of(program, (*context.register_names, *context.there.numbers))
         self.cell = Cell(self.registers, there=context.there)
@@ -230,8 +235,8 @@ class _Writer:
         motion.names = {name: int(name[1:]) for name in constants.points if name[:1] == "C" and name[1:].isdigit()}
         motion.corners = self.corners and not self.registers.jobs
         labels = Labels.of(routine.body)
-        tasks, moving = self.tasks, self.moving
-        return Printer(assignments, motion, labels, self.jobs, tasks, moving, self.ledger, self.diagnostics)
+        tasks, moving, refused = self.tasks, self.moving, self.refused
+        return Printer(assignments, motion, labels, self.jobs, tasks, moving, refused, self.ledger, self.diagnostics)
 
     def lost_parts(self, routine: ir.Routine) -> None:
         """What a job has no place for. The passes before carry over what they can."""
