@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rpl import ir
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import visit_bodies
 from rpl.writing.statements import CannotSayError
 
 from . import tables
@@ -26,7 +26,7 @@ class Labels:
             for statement in statements:
                 if isinstance(statement, ir.Label):
                     wanted.append(statement.name)
-                rewrite_parts(statement, lambda expression: expression, look)
+                visit_bodies(statement, look)
             return statements
 
         look(body)

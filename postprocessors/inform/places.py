@@ -14,7 +14,7 @@ import numpy as np
 from rpl import ir
 from rpl.emulator.rotations import matrix_to_zyx, pose_matrix, quaternion_to_matrix, slerp, zyx_to_matrix
 from rpl.passes.legalise.facts.entries import INITIALISE
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import visit_bodies
 
 from . import tables
 from .operands import constant, numbered, selected
@@ -181,7 +181,7 @@ class Constants:
                     note(statement.target)
                 if isinstance(statement, ir.Move) and statement.search is not None and statement.search.found:
                     note(statement.search.found)
-                rewrite_parts(statement, lambda expression: expression, body)
+                visit_bodies(statement, body)
             return statements
 
         for module in program.modules:

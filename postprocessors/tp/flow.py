@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from rpl import ir
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import visit_bodies
 from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 
@@ -96,7 +96,7 @@ def _labels(body: ir.Body) -> Iterator[ir.Label]:
         for statement in statements:
             if isinstance(statement, ir.Label):
                 found.append(statement)
-            rewrite_parts(statement, lambda expression: expression, look)
+            visit_bodies(statement, look)
         return statements
 
     look(body)

@@ -20,6 +20,13 @@ OnBody = Callable[[ir.Body], ir.Body]
 _EXPRESSIONS = frozenset(get_args(ir.Expression))
 _STATEMENTS = frozenset(get_args(ir.Statement))
 _LEAVES = frozenset((str, int, float, bool, type(None)))
+# The statements that hold no others: as blocks, as parts, as actions.
+_SIMPLE = _STATEMENTS - frozenset(
+    (
+        *(ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop, ir.Spline, ir.Rows, ir.Run, ir.Instruction),
+        *(ir.Move, ir.Trigger, ir.DefineTrigger, ir.DeclareInterrupt),
+    )
+)
 _EMPTY: tuple[object, ...] = ()
 _NOTHING_GIVEN: Mapping[str, object] = {}
 
@@ -92,6 +99,21 @@ def visit_parts(
     for part in PARTS[node.__class__](node):
         if part.__class__ not in _LEAVES and part is not _EMPTY:
             _visit(part, on_expression, on_body)
+
+
+def rewrite_bodies(statement: Node, on_body: OnBody) -> Node:
+    """The statement with each body directly in it replaced; an action is a body of one step. Expressions stay."""
+    return statement if statement.__class__ in _SIMPLE else rewrite_parts(statement, _as_it_is, on_body)
+
+
+def visit_bodies(statement: object, on_body: Callable[[ir.Body], object]) -> None:
+    """Show the same bodies as `rewrite_bodies` in the same order, and rebuild nothing."""
+    if statement.__class__ not in _SIMPLE:
+        visit_parts(statement, _as_it_is, on_body)
+
+
+def _as_it_is(expression: ir.Expression) -> ir.Expression:
+    return expression
 
 
 def _visit(

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from rpl import ir
 from rpl.passes.collector import paused_cycle_collector
 from rpl.passes.expanded import expanded
-from rpl.passes.rewrite import changed, each, rewrite_parts
+from rpl.passes.rewrite import changed, each, rewrite_bodies
 from rpl.source import NOWHERE, Comment, Origin, decode
 from rpl.writing.target import OutputFile
 
@@ -84,7 +84,7 @@ class _Marks:
 
     def _statement(self, statement: ir.Statement) -> ir.Statement:
         origin = self._numbered(statement.origin)
-        whole = rewrite_parts(statement, lambda part: part, self._body) if isinstance(statement, _BLOCKS) else statement
+        whole = rewrite_bodies(statement, self._body) if isinstance(statement, _BLOCKS) else statement
         return changed(whole, origin=origin)
 
     def _numbered(self, origin: Origin) -> Origin:

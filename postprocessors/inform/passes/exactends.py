@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_all
-from rpl.passes.rewrite import rewrite_parts, same
+from rpl.passes.rewrite import rewrite_bodies, same
 from rpl.writing.target import WriteContext
 
 # Routines that programs bring along and that only calculate.
@@ -25,7 +25,7 @@ def exact_ends(program: ir.Program, context: WriteContext) -> ir.Program:
 
 
 def _body(body: ir.Body) -> ir.Body:
-    done = [rewrite_parts(one, lambda value: value, _body) if blocks(one) else one for one in body]
+    done = [rewrite_bodies(one, _body) if blocks(one) else one for one in body]
     awaited = False  # going back from the end: does the program wait for the robot here?
     for at in range(len(body) - 1, -1, -1):
         statement = done[at]

@@ -18,7 +18,7 @@ from rpl.passes.legalise.facts.values.framenumbers import Table, is_none, key_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.passes.values import pose_of
@@ -151,7 +151,7 @@ class _Seen:
 
     def statement(self, statement: ir.Statement) -> ir.Statement:
         if not isinstance(statement, ir.Move):
-            return rewrite_parts(statement, lambda expression: expression, self.body)
+            return rewrite_bodies(statement, self.body)
         if statement.relative is not None or (statement.frame is not None and not is_none(statement.frame)):
             return statement
         frame, target = self.split(statement.target)

@@ -10,7 +10,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_all
-from rpl.passes.rewrite import rewrite_parts, same
+from rpl.passes.rewrite import rewrite_bodies, same
 from rpl.writing.target import WriteContext
 
 
@@ -30,7 +30,7 @@ def _body(body: ir.Body) -> ir.Body:
             done = [other for other in done if id(other) not in given]
             one, waiting = _with(one, waiting), []
         elif blocks(one):
-            one = rewrite_parts(one, lambda value: value, _body)
+            one = rewrite_bodies(one, _body)
         done.append(one)
     return body if same(done, body) else tuple(done)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.rewriting.editing import edit_all
-from rpl.passes.rewrite import changed, rewrite_parts, same
+from rpl.passes.rewrite import changed, rewrite_bodies, same
 from rpl.writing.target import WriteContext
 
 
@@ -20,7 +20,7 @@ def taken_branches(program: ir.Program, context: WriteContext) -> ir.Program:
 def _body(body: ir.Body) -> ir.Body:
     done: list[ir.Statement] = []
     for statement in body:
-        one = rewrite_parts(statement, lambda value: value, _body)
+        one = rewrite_bodies(statement, _body)
         done += _decided(one) if isinstance(one, ir.If) else (one,)
     return body if same(done, body) else tuple(done)
 

@@ -14,7 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.startdata import entries_of
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
 from .. import tables
@@ -135,7 +135,7 @@ class _Watches:
             if isinstance(statement, ir.Return):
                 done.extend((replace(self.flag(False), origin=statement.origin), statement))
             else:
-                done.append(rewrite_parts(statement, lambda expression: expression, self.ending))
+                done.append(rewrite_bodies(statement, self.ending))
         return tuple(done)
 
 

@@ -17,7 +17,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
@@ -42,7 +42,7 @@ def changed_places(program: ir.Program, context: Context) -> ir.Program:
 
     def work(routine: ir.Routine, scope: Scope) -> ir.Routine:
         def body(statements: ir.Body) -> ir.Body:
-            return tuple(fitted(rewrite_parts(one, lambda e: e, body)) for one in statements)
+            return tuple(fitted(rewrite_bodies(one, body)) for one in statements)
 
         def fitted(one: ir.Statement) -> ir.Statement:
             if not isinstance(one, ir.Move) or one.kind != "joint" or one.relative is not None:

@@ -33,7 +33,7 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts, visit_bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import pose_of
 
@@ -272,7 +272,7 @@ def _without_noted(program: ir.Program) -> ir.Program:
         kept: list[ir.Statement] = []
         for one in body:
             if _is_noted(one) not in idle:
-                kept.append(rewrite_parts(one, lambda expression: expression, whole))
+                kept.append(rewrite_bodies(one, whole))
             elif one.origin.comments:
                 kept.append(ir.Nothing(origin=one.origin))
         return tuple(kept)
@@ -298,7 +298,7 @@ def _count_noted(body: ir.Body, noted: dict[str, int]) -> None:
         return inner
 
     for one in body:
-        rewrite_parts(one, lambda expression: expression, inside)
+        visit_bodies(one, inside)
 
 
 def _is_noted(statement: ir.Statement) -> str:

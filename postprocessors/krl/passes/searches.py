@@ -14,7 +14,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
@@ -73,7 +73,7 @@ class _Searches:
             if isinstance(statement, ir.Move) and statement.search is not None and self.possible(statement, local):
                 done.extend(self.search(statement, statement.search))
             else:
-                done.append(rewrite_parts(statement, lambda expression: expression, lambda b: self.body(b, local)))
+                done.append(rewrite_bodies(statement, lambda b: self.body(b, local)))
         return tuple(done)
 
     def possible(self, move: ir.Move, local: frozenset[str]) -> bool:

@@ -15,7 +15,7 @@ from rpl.passes.legalise.facts.motion.externalaxes import has_external_axes
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames, with_data
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 
@@ -55,7 +55,7 @@ class _Shifts:
                 return self.in_parts(statement, target, base, shift)
             case ir.Move(relative=None, target=ir.Builtin() as target) if self.needs_pose_alone(statement.kind, target):
                 statement = replace(statement, target=self.in_front(target))
-        return (rewrite_parts(statement, lambda expression: expression, self.body),)
+        return (rewrite_bodies(statement, self.body),)
 
     def can_be_parts(self, name: str, base: ir.Name, shift: list[ir.Expression]) -> bool:
         """Does the shift look at nothing that the first of the assignments changes? Then its parts may follow."""

@@ -22,7 +22,7 @@ from rpl.passes.legalise.rewriting.headdata import with_data
 from rpl.passes.legalise.rewriting.settingwords import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, ROOT, UNIT, USUAL, says
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT, ZONE_PROPORTIONS
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.signatures import PLACES
 from rpl.passes.typing import type_of
@@ -152,7 +152,7 @@ class _Explicit:
                         if statement.origin.comments:
                             done.append(ir.Nothing(origin=statement.origin))
                     case _:
-                        done.append(rewrite_parts(statement, lambda expression: expression, body))
+                        done.append(rewrite_bodies(statement, body))
             return tuple(done)
 
         return edit_all(program, body) if dead else program

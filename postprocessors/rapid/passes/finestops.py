@@ -12,7 +12,7 @@ from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 __all__ = ["fine_stops"]
 
@@ -43,7 +43,7 @@ def _body(body: ir.Body) -> ir.Body:
             if statement.origin.comments:
                 done.append(ir.Nothing(origin=statement.origin))
         else:
-            done.append(rewrite_parts(statement, lambda expression: expression, _body))
+            done.append(rewrite_bodies(statement, _body))
     return tuple(done)
 
 

@@ -21,7 +21,7 @@ from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.headdata import with_data
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import ZONE_PROPORTIONS
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 from ..expressions import number_of
 from ..tables import SPEED_NAMES, ZONE_NAMES
@@ -65,7 +65,7 @@ class _Named:
 
     def statement(self, statement: ir.Statement) -> ir.Body:
         if not isinstance(statement, ir.Move | ir.MoveExternal):
-            return (rewrite_parts(statement, lambda expression: expression, self.body),)
+            return (rewrite_bodies(statement, self.body),)
         speed, blend = statement.speed, statement.blend
         if speed is not None and isinstance(speed.profile, ir.Aggregate):
             profile = self.named(speed.profile, statement)

@@ -18,7 +18,7 @@ from rpl.passes.legalise.facts.usage import base_name, called_names, doing, each
 from rpl.passes.legalise.rewriting.beside import local_names
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.source import Origin
 
 from .. import tables
@@ -355,7 +355,7 @@ class _Traps:
                 later = replace(statement.origin, comments=())
                 each = [replace(statement, handle=ir.Name(one.handle), origin=later) for one in trap.orders]
                 return [*before, replace(each[0], origin=statement.origin), *each[1:]]
-        return [rewrite_parts(statement, lambda expression: expression, self.body)]
+        return [rewrite_bodies(statement, self.body)]
 
     def ordered(self, trap: _Trap, statement: ir.Statement) -> list[ir.Statement]:
         later = replace(statement.origin, comments=())

@@ -8,7 +8,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_all
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.writing.target import WriteContext
 
 
@@ -18,7 +18,7 @@ def exact_ends(program: ir.Program, context: WriteContext) -> ir.Program:
 
 
 def _body(body: ir.Body) -> ir.Body:
-    done = [rewrite_parts(one, lambda value: value, _body) if blocks(one) else one for one in body]
+    done = [rewrite_bodies(one, _body) if blocks(one) else one for one in body]
     for at, statement in enumerate(done):
         if isinstance(statement, ir.Move) and _awaited(body[at + 1 :]):
             done[at] = replace(statement, blend=ir.BlendStop())

@@ -13,7 +13,7 @@ from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 _WAYS = ("x", "y", "z")
 
@@ -32,7 +32,7 @@ def _filled(body: ir.Body, editor: Editor) -> ir.Body:
     done: list[ir.Statement] = []
     copies: dict[str, tuple[str, frozenset[str]]] = {}  # a place -> what it is a copy of, and which parts have changed
     for statement in body:
-        statement = rewrite_parts(statement, lambda one: one, lambda inner: _filled(inner, editor))
+        statement = rewrite_bodies(statement, lambda inner: _filled(inner, editor))
         statement = _of_copy(statement, copies)
         for one in _spelled(statement, editor):
             _note(one, copies)

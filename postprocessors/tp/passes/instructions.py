@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.rewriting.editing import edit_all
-from rpl.passes.rewrite import rewrite_parts, same
+from rpl.passes.rewrite import rewrite_bodies, same
 from rpl.writing.target import WriteContext
 
 from ..facts.programs import monitors_of
@@ -43,11 +43,11 @@ def single_instructions(program: ir.Program, context: WriteContext) -> ir.Progra
         while at < len(body):
             found = _instruction(body, at, monitors)
             if found is None:
-                done.append(rewrite_parts(body[at], lambda expression: expression, written))
+                done.append(rewrite_bodies(body[at], written))
                 at += 1
                 continue
             at += len(found.parts)
-            inner = tuple([rewrite_parts(one, lambda expression: expression, written) for one in found.parts])
+            inner = tuple([rewrite_bodies(one, written) for one in found.parts])
             done.append(found if found.text or same(inner, found.parts) else replace(found, parts=inner))
         return body if same(done, body) else tuple(done)
 

@@ -10,7 +10,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 from ..tables import TIMED_OUT
 
@@ -32,7 +32,7 @@ def limited_waits(program: ir.Program, context: Context) -> ir.Program:
             done.append(body[at])
             at += 1
         body = tuple(done) if len(done) != len(body) else body
-        inner = tuple([rewrite_parts(one, lambda expression: expression, written) for one in body])
+        inner = tuple([rewrite_bodies(one, written) for one in body])
         return body if all(one is other for one, other in zip(inner, body, strict=True)) else inner
 
     done = edit_all(program, written)

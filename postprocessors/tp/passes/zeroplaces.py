@@ -10,7 +10,7 @@ from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 __all__ = ["zero_places"]
 
@@ -28,6 +28,6 @@ def zero_places(program: ir.Program, context: Context) -> ir.Program:
                 value=ir.Builtin(function="element_difference", arguments=(ir.Name() as one, other)) as value,
             ) if place == one == other:
                 return (replace(statement, value=replace(value, arguments=(_HERE, _HERE))),)
-        return (rewrite_parts(statement, lambda expression: expression, lambda body: map_body(body, change)),)
+        return (rewrite_bodies(statement, lambda body: map_body(body, change)),)
 
     return edit_all(program, lambda body: map_body(body, change))

@@ -17,7 +17,7 @@ from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.places import fixed_place, is_open
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import changed, rewrite_parts
+from rpl.passes.rewrite import changed, rewrite_bodies, rewrite_parts
 from rpl.passes.scope import ProgramScope
 from rpl.passes.typing import type_of
 
@@ -182,7 +182,7 @@ def _rewritten(editor: Editor, routine: ir.Routine, facts: _Facts, results: dict
         if isinstance(statement, ir.Return):
             return expansion(statement.origin, (*leave, statement))
         if blocks(statement):
-            return (rewrite_parts(statement, lambda part: part, lambda inner: map_body(inner, change)),)
+            return (rewrite_bodies(statement, lambda inner: map_body(inner, change)),)
         return (statement,)
 
     body = map_body(done.body, change)

@@ -11,7 +11,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 _EULER = {"a": "euler_z", "b": "euler_y", "c": "euler_x"}
 _PLACES = (ir.PoseType, ir.TargetType)
@@ -41,7 +41,7 @@ def _set(statement: ir.Statement, editor: Editor) -> ir.Body:
                 angles = tuple((one, value if one == name else ir.Field(base, one)) for one in ir.ANGLES)
                 turned = ir.Field(ir.Aggregate(angles, "pose"), "rot")
                 return (ir.Assign(ir.Field(base, "rot"), turned, origin=statement.origin),)
-    return (rewrite_parts(statement, lambda one: one, lambda inner: map_body(inner, lambda one: _set(one, editor))),)
+    return (rewrite_bodies(statement, lambda inner: map_body(inner, lambda one: _set(one, editor))),)
 
 
 def _read(expression: ir.Expression, editor: Editor) -> Lowered | None:

@@ -23,7 +23,7 @@ from rpl.passes.legalise.rewriting.editing import (
     passes_on,
 )
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
@@ -44,7 +44,7 @@ class _Loops:
         return map_body(body, self.statement)
 
     def statement(self, statement: ir.Statement) -> ir.Body:
-        done = rewrite_parts(statement, lambda expression: expression, self.body)
+        done = rewrite_bodies(statement, self.body)
         match done:
             case ir.While() | ir.Repeat() | ir.Loop() | ir.For() if passes_on(done.body) or exits(done.body):
                 return expansion(done.origin, self.ended(done))
@@ -121,7 +121,7 @@ def _guarded(body: ir.Body, kind: type[ir.ExitLoop] | type[ir.NextPass], flag: i
             ):
                 branch = (*first, ir.Assign(flag, _TRUE, origin=one.origin))
                 return (*body[:at], replace(statement, branches=((condition, branch),), otherwise=rest))
-        done = rewrite_parts(statement, lambda one: one, lambda inner: _guarded(inner, kind, flag))
+        done = rewrite_bodies(statement, lambda inner: _guarded(inner, kind, flag))
         guarded = (ir.If(((ir.Unary("not", flag), rest),)),) if rest else ()
         return (*body[:at], done, *guarded)
     return body

@@ -13,7 +13,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 
 @legalising(sees=("Pulse",))
@@ -37,7 +37,7 @@ def pulses_as_tasks(program: ir.Program, context: Context) -> ir.Program:
                 begun = ir.Assign(statement.signal, statement.value, origin=statement.origin)
                 rest = replace(statement.origin, comments=())
                 return (begun, ir.TaskControl("start", made[statement], origin=rest))
-        return (rewrite_parts(statement, lambda one: one, lambda body: map_body(body, change)),)
+        return (rewrite_bodies(statement, lambda body: map_body(body, change)),)
 
     done = edit_all(program, lambda body: map_body(body, change))
     first = done.modules[0]

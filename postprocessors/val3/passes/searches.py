@@ -15,7 +15,7 @@ from rpl.passes.conditions import negation
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 WATCHED = code(
     "val3-search-watched",
@@ -36,7 +36,7 @@ def searches_beside_the_queue(program: ir.Program, context: Context) -> ir.Progr
         def change(statement: ir.Statement) -> ir.Body:
             if isinstance(statement, ir.Move) and statement.search is not None:
                 return _searched(statement, statement.search, editor)
-            return (rewrite_parts(statement, lambda one: one, lambda body: map_body(body, change)),)
+            return (rewrite_bodies(statement, lambda body: map_body(body, change)),)
 
         return edit_bodies(routine, lambda body: map_body(body, change))
 

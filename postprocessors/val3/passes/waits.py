@@ -17,7 +17,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 CORNER = code(
     "val3-corner-given-up",
@@ -126,7 +126,7 @@ class _Waits:
                 return (*done, ir.WaitForMotion(origin=replace(statement.origin, comments=())))
             return done
 
-        done = rewrite_parts(statement, lambda one: one, whole)
+        done = rewrite_bodies(statement, whole)
         self.pending = self.pending or (begun and not isinstance(statement, ir.Repeat))
         return done
 
@@ -139,7 +139,7 @@ class _Waits:
             ends.append(self.pending)
             return done
 
-        done = rewrite_parts(statement, lambda one: one, branch)
+        done = rewrite_bodies(statement, branch)
         self.pending = any(ends)
         return done
 

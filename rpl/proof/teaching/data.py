@@ -14,7 +14,7 @@ from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
-from rpl.passes.rewrite import each, rewrite_parts
+from rpl.passes.rewrite import each, rewrite_bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typewords import component_names, type_word
 from rpl.passes.typing import type_of
@@ -326,7 +326,7 @@ def _in_module(module: ir.Module, owners: Mapping[int, Owner]) -> ir.Module:
     def statement(node: ir.Statement) -> ir.Statement:
         found = owners.get(id(node), node)
         assert not isinstance(found, ir.Variable | ir.Initialise)  # a statement's place holds one
-        return rewrite_parts(found, lambda one: one, body)
+        return rewrite_bodies(found, body)
 
     def body(statements: ir.Body) -> ir.Body:
         return each(statements, statement)

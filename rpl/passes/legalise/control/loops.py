@@ -32,7 +32,7 @@ from rpl.passes.legalise.rewriting.editing import (
 )
 from rpl.passes.legalise.rewriting.jumps import entered
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import Scope
 
 
@@ -84,7 +84,7 @@ class _Loops:
             case ir.For():
                 return self.counting(statement)
             case ir.While() | ir.Repeat() | ir.Loop() if self.labelled and not self.stays(statement):
-                return (rewrite_parts(statement, lambda expression: expression, self.body),)
+                return (rewrite_bodies(statement, self.body),)
             case ir.While():
                 return self.left(statement, self.passed_on(statement))
             case ir.Repeat():
@@ -92,7 +92,7 @@ class _Loops:
             case ir.Loop():
                 return self.loop(statement)
             case ir.If() | ir.Switch():
-                return (rewrite_parts(statement, lambda expression: expression, self.body),)
+                return (rewrite_bodies(statement, self.body),)
         return (statement,)
 
     def stays(self, loop: ir.Statement) -> bool:
@@ -475,7 +475,7 @@ def redirected(body: ir.Body, kind: type, jump: ir.Body) -> ir.Body:
         if isinstance(statement, kind):
             return expansion(statement.origin, jump)
         if isinstance(statement, ir.If | ir.Switch):
-            return (rewrite_parts(statement, lambda expression: expression, inner),)
+            return (rewrite_bodies(statement, inner),)
         return (statement,)
 
     def inner(statements: ir.Body) -> ir.Body:

@@ -17,7 +17,7 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.rewriting.support import SUPPORT
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import changed, rewrite_parts
+from rpl.passes.rewrite import changed, rewrite_bodies
 
 
 @legalising()
@@ -71,7 +71,7 @@ def _without_assignments(program: ir.Program, idle: frozenset[str]) -> ir.Progra
                 return (ir.Nothing(origin=one.origin),) if one.origin.comments else ()
             case ir.Move(settings=settings) | ir.Spline(settings=settings) if any(is_idle(*each) for each in settings):
                 one = replace(one, settings=tuple(each for each in settings if not is_idle(*each)))
-        return (rewrite_parts(one, lambda expression: expression, body),)
+        return (rewrite_bodies(one, body),)
 
     def body(statements: ir.Body) -> ir.Body:
         return map_body(statements, statement)

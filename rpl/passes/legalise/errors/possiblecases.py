@@ -14,7 +14,7 @@ from rpl.ir.walk import walk
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all, expansion
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 _READERS = frozenset(("parse_value",))  # procedures that fill data of any type
 _TELLING = {"scan_from": ".ret1", "format_into": ".ret1"}  # procedures that set a field of the record that they get
@@ -31,7 +31,7 @@ def possible_cases(program: ir.Program, context: Context) -> ir.Program:
     def body(statements: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         for statement in statements:
-            inner = rewrite_parts(statement, lambda expression: expression, body)
+            inner = rewrite_bodies(statement, body)
             members = held.members(inner.selector) if isinstance(inner, ir.Switch) else None
             if isinstance(inner, ir.Switch) and members is not None:
                 done.extend(_left(inner, members))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.facts.usage import each_expression
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import visit_bodies
 
 
 def armed_calls(routine: ir.Routine, resuming: set[str], elsewhere: ArmedElsewhere) -> set[str] | None:
@@ -109,7 +109,7 @@ class _Flow:
             after.append(self.armed)
             return body
 
-        rewrite_parts(statement, lambda expression: expression, inner)
+        visit_bodies(statement, inner)
         self.armed = any(after)
 
     def calls(self, statement: ir.Statement) -> None:

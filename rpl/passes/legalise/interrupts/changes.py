@@ -15,7 +15,7 @@ from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import type_of
 
@@ -88,7 +88,7 @@ class _Changes:
                     ir.Assign(last, value, origin=statement.origin),
                     replace(statement, event="edge", condition=ir.Binary("<>", value, last), origin=later),
                 ]
-        return [rewrite_parts(statement, lambda expression: expression, partial(self.body, scope))]
+        return [rewrite_bodies(statement, partial(self.body, scope))]
 
     def kept(self, handle: str, value: ir.Expression, scope: Scope) -> _Seen | None:
         """The place for what was seen of a value; None for values that are no plain data."""

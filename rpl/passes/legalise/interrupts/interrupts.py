@@ -16,7 +16,7 @@ from rpl.passes.legalise.interrupts.changes import watched_changes
 from rpl.passes.legalise.interrupts.identities import one_meaning_each, one_name_each
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 _FIRST_PRIORITY = 10  # KRL allows 1..39 and 81..128; the lower ones are left to the user
 
@@ -120,7 +120,7 @@ class _Priorities:
                     stop = ir.Assign(self.timer(name, "timer_stopped"), ir.BoolLiteral(True))
                     return [done, replace(stop, origin=replace(statement.origin, comments=()))]
                 return [done]
-        return [rewrite_parts(statement, lambda expression: expression, self.body)]
+        return [rewrite_bodies(statement, self.body)]
 
     def every(self, statement: ir.OrderInterrupt, name: str, time: ir.Expression) -> list[ir.Statement]:
         """A timer that counts up to zero; its interrupt sets it back by the period, so that no time is lost. Periods

@@ -18,7 +18,7 @@ from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.interrupts.armedcalls import ArmedElsewhere, armed_calls
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.source import Origin
 
 NOT_BRAKED = code(
@@ -174,14 +174,14 @@ class _Resumes:
                     done.append(ir.ClearMotion(origin=later))
                 done.append(ir.Return(origin=later))
             else:
-                done.append(rewrite_parts(statement, lambda expression: expression, self.handler))
+                done.append(rewrite_bodies(statement, self.handler))
         return tuple(done)
 
     def level(self, body: ir.Body) -> ir.Body:
         """In the declaring routine the flag is lowered behind calls."""
         done: list[ir.Statement] = []
         for statement in body:
-            done.append(rewrite_parts(statement, lambda expression: expression, self.level))
+            done.append(rewrite_bodies(statement, self.level))
             if isinstance(statement, ir.CallRoutine) and statement.name.lower() in self.watched:
                 done.append(ir.Assign(ir.Name(self.flag), ir.BoolLiteral(False), origin=_later(statement)))
         return tuple(done)
@@ -193,7 +193,7 @@ class _Resumes:
             if isinstance(statement, ir.WaitUntil):
                 either = ir.Binary("or", statement.condition, ir.Name(self.flag))
                 statement = replace(statement, condition=either)
-            done.append(rewrite_parts(statement, lambda expression: expression, self.interruptible))
+            done.append(rewrite_bodies(statement, self.interruptible))
             takes_time = isinstance(statement, ir.Move | ir.Spline | ir.Wait | ir.WaitUntil | ir.WaitForMotion)
             if takes_time or (isinstance(statement, ir.CallRoutine) and statement.name.lower() in self.watched):
                 leave = ir.Return(origin=_later(statement))

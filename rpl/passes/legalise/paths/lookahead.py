@@ -14,7 +14,7 @@ from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.motion.advance import touches
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import Scope
 
 STOPPED = code(
@@ -56,7 +56,7 @@ class _Stops:
                 if statement.origin.comments:
                     done.append(ir.Nothing(origin=statement.origin))
                 continue
-            done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+            done.append(rewrite_bodies(statement, self.body))
         return tuple(done)
 
     def stopper(self, rest: ir.Body) -> ir.Statement | None:

@@ -17,7 +17,7 @@ from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.support import with_support
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, visit_bodies
 
 _Known = dict[str, ir.DefineTrigger]
 
@@ -70,7 +70,7 @@ class _Definitions:
                     self.run(part, known, home)
                     return part
 
-                rewrite_parts(statement, lambda one: one, branch)
+                visit_bodies(statement, branch)
             elif any(isinstance(node, ir.CallRoutine | ir.Call) for node in walk(statement)):
                 known = {name: one for name, one in known.items() if self.homes[name] == {home}}
         return known
@@ -164,7 +164,7 @@ class _Before:
                     later = replace(statement, origin=replace(statement.origin, comments=()))
                     done.extend(self.controlled(later, base_name(handle) or "", True))
                 case _:
-                    done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+                    done.append(rewrite_bodies(statement, self.body))
         same = len(done) == len(body) and all(new is old for new, old in zip(done, body, strict=True))
         return body if same else tuple(done)
 

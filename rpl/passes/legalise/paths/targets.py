@@ -21,7 +21,7 @@ from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.passes.values import Record, Target, real
@@ -82,7 +82,7 @@ class Whole:
                 self.stop_before(done, statement)  # such a way begins where the robot is
                 done.append(replace(statement, target=self.whole_way(statement.target)))
             else:
-                done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+                done.append(rewrite_bodies(statement, self.body))
         return tuple(done)
 
     def needs_work(self, move: ir.Move) -> bool:

@@ -20,7 +20,7 @@ from rpl.passes.legalise.rewriting.earlyways import by_way
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target
 
@@ -116,7 +116,7 @@ class _Stored:
             if waiting and not isinstance(statement, ir.Assign | ir.Nothing | ir.LookAhead):
                 done.extend(waiting)  # no move follows here: left for the writer to report
                 waiting = []
-            done.append(rewrite_parts(statement, lambda expression: expression, self.body))
+            done.append(rewrite_bodies(statement, self.body))
         done.extend(waiting)
         return tuple(done)
 
@@ -255,7 +255,7 @@ class _AtMoves:
             done.extend(waiting)  # no move follows here: left for the writer to report
             last, waiting = None, []
             begins = begins if isinstance(statement, _ARM_STANDS) else None
-            done.append(rewrite_parts(statement, lambda expression: expression, self.inner))
+            done.append(rewrite_bodies(statement, self.inner))
         return (*done, *waiting)
 
     def inner(self, body: ir.Body) -> ir.Body:

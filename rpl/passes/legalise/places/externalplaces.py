@@ -20,7 +20,7 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.values import Target, real
 
@@ -100,7 +100,7 @@ class _Places:
             new = self.body(statement.body, dict(known) if stays else {})
             statement = rewrite_parts(statement, lambda value: value, None, {"body": new})
         else:
-            statement = rewrite_parts(statement, lambda value: value, lambda body: self.body(body, dict(known)))
+            statement = rewrite_bodies(statement, lambda body: self.body(body, dict(known)))
         if not stays:
             known.clear()
         return [statement]

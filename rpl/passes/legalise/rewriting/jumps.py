@@ -11,7 +11,7 @@ from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks, statements_in
 from rpl.passes.legalise.rewriting.editing import exits, expansion, map_body, passes_on
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 LOOPS = (ir.For, ir.While, ir.Repeat, ir.Loop)
 
@@ -109,7 +109,7 @@ class LabelNames:
 
 def inside(statement: ir.Statement, on_body: Callable[[ir.Body], ir.Body]) -> ir.Statement:
     """The statement with its bodies rewritten."""
-    return rewrite_parts(statement, lambda expression: expression, on_body) if blocks(statement) else statement
+    return rewrite_bodies(statement, on_body) if blocks(statement) else statement
 
 
 def left_with(routine: ir.Routine, steps: ir.Body) -> ir.Routine:

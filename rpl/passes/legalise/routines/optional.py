@@ -24,7 +24,7 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.support import default_value
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
 NO_CANDIDATE = code(
@@ -394,7 +394,7 @@ class _Dynamic:
             case ir.CallRoutine(dynamic=name) if name is not None:
                 return self.chosen(statement, name)
         if blocks(statement):
-            return (rewrite_parts(statement, lambda expression: expression, self.body),)
+            return (rewrite_bodies(statement, self.body),)
         return (statement,)
 
     def chosen(self, statement: ir.CallRoutine, name: ir.Expression) -> ir.Body:

@@ -12,7 +12,7 @@ from rpl.passes.legalise.facts.effects import blocks, children, everything
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered, Rule
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 
 @legalising()
@@ -90,7 +90,7 @@ def _assigned(body: ir.Body, result: str) -> ir.Body:
             give = ir.Assign(ir.Name(result), statement.value)
             return expansion(statement.origin, (give, replace(statement, value=None)))
         if blocks(statement):
-            return (rewrite_parts(statement, lambda part: part, lambda inner: map_body(inner, change)),)
+            return (rewrite_bodies(statement, lambda inner: map_body(inner, change)),)
         return (statement,)
 
     return map_body(body, change)

@@ -28,7 +28,7 @@ from rpl.passes.legalise.settings.strengths import is_usual_ramp
 from rpl.passes.legalise.settings.usualplaces import TURNING, turns_as_usual, usual_places, usual_turns
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import Scope
 from rpl.passes.typewords import component_names
 from rpl.passes.typing import type_of
@@ -236,10 +236,10 @@ class Modal:
             case ir.Spline():
                 return self.spline(statement, known)
             case ir.If() | ir.Switch():
-                choice = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, dict(known)))
+                choice = rewrite_bodies(statement, lambda inner: self.body(inner, dict(known)))
                 self.passed(statement, known)
                 return [choice]
-        new = rewrite_parts(statement, lambda e: e, lambda inner: self.body(inner, {}))
+        new = rewrite_bodies(statement, lambda inner: self.body(inner, {}))
         if new is not statement:
             self.passed(statement, known)
         return [new]

@@ -16,7 +16,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import changed, rewrite_parts
+from rpl.passes.rewrite import changed, rewrite_bodies, visit_bodies
 from rpl.passes.scope import ProgramScope, Scope
 
 __all__ = ["counted_loops"]
@@ -132,7 +132,7 @@ class _Loops:
                     done.append(self.counting(statements[at], found, body))
                     at += 2
                 else:
-                    done.append(rewrite_parts(statements[at], lambda expression: expression, body))
+                    done.append(rewrite_bodies(statements[at], body))
                     at += 1
             return tuple(done)
 
@@ -157,11 +157,11 @@ def _blocks(routine: ir.Routine) -> Iterator[ir.Body]:
         def look(body: ir.Body, found: list[ir.Body] = found) -> ir.Body:
             found.append(body)
             for one in body:
-                rewrite_parts(one, lambda expression: expression, look)
+                visit_bodies(one, look)
             return body
 
         for one in whole:
-            rewrite_parts(one, lambda expression: expression, look)
+            visit_bodies(one, look)
         yield from found
 
 

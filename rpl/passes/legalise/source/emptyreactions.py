@@ -14,7 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import Comment, Origin
 
@@ -109,7 +109,7 @@ class _Left:
             case ir.ControlInterrupt(handle=None) if not self.facts.any_other:
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
         if blocks(statement):
-            return (rewrite_parts(statement, lambda one: one, self.body),)
+            return (rewrite_bodies(statement, self.body),)
         return (statement,)
 
     def is_controllers(self, statement: ir.DeclareInterrupt) -> bool:

@@ -15,7 +15,7 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
 from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import Scope
 
 _CONTROLLERS = "$"  # how a variable of the controller itself begins; data of a program is set by hand, too
@@ -42,7 +42,7 @@ def known_limits(program: ir.Program, context: Context) -> ir.Program:
             return tuple(map(change, statements))
 
         def change(statement: ir.Statement) -> ir.Statement:
-            done = rewrite_parts(statement, lambda expression: expression, body)
+            done = rewrite_bodies(statement, body)
             if not isinstance(statement, ir.WaitUntil) or not isinstance(done, ir.WaitUntil):
                 return done
             seconds = _seconds(statement.timeout, held.before(statement), editor.scope)

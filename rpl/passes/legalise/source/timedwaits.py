@@ -16,7 +16,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, visit_bodies
 from rpl.passes.scope import ProgramScope, Scope
 
 _READ = ("timer", "timer_positive")
@@ -67,7 +67,7 @@ def _bodies(routine: ir.Routine) -> list[ir.Body]:
     def note(body: ir.Body) -> ir.Body:
         found.append(body)
         for statement in body:
-            rewrite_parts(statement, lambda expression: expression, note)
+            visit_bodies(statement, note)
         return body
 
     edit_bodies(routine, note)
@@ -94,7 +94,7 @@ def _written(body: ir.Body, editor: Editor, limited: frozenset[int]) -> ir.Body:
         if isinstance(statement, ir.Assign) and _set(statement) in limited:
             done.append(ir.Nothing(origin=statement.origin))
             continue
-        done.append(rewrite_parts(statement, lambda expression: expression, lambda one: _written(one, editor, limited)))
+        done.append(rewrite_bodies(statement, lambda one: _written(one, editor, limited)))
     same = len(done) == len(body) and all(one is other for one, other in zip(done, body, strict=True))
     return body if same else tuple(done)
 

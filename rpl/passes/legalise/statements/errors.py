@@ -24,7 +24,7 @@ from rpl.passes.legalise.rewriting.editing import Editor, expansion, map_body
 from rpl.passes.legalise.rewriting.support import default_value, with_support
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.statements.knownerrors import settled
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import ProgramScope
 
 CAUGHT_PARTLY = code(
@@ -124,7 +124,7 @@ def _restoring(editor: Editor, trap: ir.Routine, names: _Names) -> ir.Routine:
         if isinstance(statement, ir.Return):
             return expansion(statement.origin, (back, statement))
         if blocks(statement):
-            return (rewrite_parts(statement, lambda part: part, lambda body: map_body(body, change)),)
+            return (rewrite_bodies(statement, lambda body: map_body(body, change)),)
         return (statement,)
 
     start = (ir.Assign(kept, names.raised), ir.Assign(names.raised, ir.BoolLiteral(False)))
@@ -459,7 +459,7 @@ class _Handling(_Passing):
                 case ir.Goto(label=name) if name.lower() in labels:
                     return (replace(statement, label=labels[name.lower()]),)
             if blocks(statement):
-                return (rewrite_parts(statement, lambda part: part, lambda inner: map_body(inner, change)),)
+                return (rewrite_bodies(statement, lambda inner: map_body(inner, change)),)
             return (statement,)
 
         return map_body(body, change)

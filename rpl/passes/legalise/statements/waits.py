@@ -19,7 +19,7 @@ from rpl.passes.legalise.interrupts.clocks.heldtimers import held_timers, of_hel
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
 
 NO_TIMER = code(
@@ -155,7 +155,7 @@ class _Waits:
             case ir.Pulse() if "Pulse" not in self.capabilities.statements:
                 return self.pulse(statement)
         if blocks(statement):
-            return (rewrite_parts(statement, lambda expression: expression, self.body),)
+            return (rewrite_bodies(statement, self.body),)
         return (statement,)
 
     def limited(self, statement: ir.WaitUntil, timeout: ir.Expression) -> ir.Body:

@@ -14,7 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.rewriting.stopping import is_left_out
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 __all__ = ["said_once"]
 
@@ -31,7 +31,7 @@ def said_once(program: ir.Program, context: Context) -> ir.Program:
 def _body(body: ir.Body) -> ir.Body:
     done: list[ir.Statement] = []
     for at, statement in enumerate(body):
-        inner = rewrite_parts(statement, lambda expression: expression, _body)
+        inner = rewrite_bodies(statement, _body)
         if isinstance(inner, ir.Opaque) and not any(isinstance(one, ir.Move) for one in _rest(body, at)):
             while done and isinstance(done[-1], ir.Trigger) and _of_one(done[-1], inner):
                 done.pop()  # an action of a refused move is refused with it

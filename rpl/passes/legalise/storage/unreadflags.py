@@ -15,7 +15,7 @@ from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 from rpl.source import NOWHERE
 
 
@@ -57,7 +57,7 @@ def _without(program: ir.Program, idle: set[str]) -> ir.Program:
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
             case ir.WaitUntil(timed_out=ir.Name(id=name)) if name.lower() in idle:
                 return (replace(statement, timed_out=None),)
-        return (rewrite_parts(statement, lambda expression: expression, lambda body: map_body(body, change)),)
+        return (rewrite_bodies(statement, lambda body: map_body(body, change)),)
 
     done = edit_all(program, lambda body: map_body(body, change))
     return replace(

@@ -16,7 +16,7 @@ from rpl.passes.legalise.facts.usage import assigned_in
 from rpl.passes.legalise.kept import of_program
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies
 
 _BY_TEXT = frozenset(("call by text",))
 
@@ -130,7 +130,7 @@ def _told_texts(program: ir.Program) -> ir.Program:
             if isinstance(one, ir.CallRoutine) and one.dynamic is not None:
                 done.append(replace(one, dynamic=as_written_before(one.dynamic, statements[:place])))
             else:
-                done.append(rewrite_parts(one, lambda part: part, body) if blocks(one) else one)
+                done.append(rewrite_bodies(one, body) if blocks(one) else one)
         return tuple(done)
 
     return edit_all(program, body)

@@ -16,7 +16,7 @@ from rpl.passes.legalise.facts.usage import base_name, called_below, doing
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts, visit_bodies
 from rpl.passes.values import real
 
 _LOOPS = (ir.While, ir.For, ir.Loop, ir.Repeat)
@@ -100,7 +100,7 @@ def _set_ahead(program: ir.Program) -> set[int]:
 
     def look(body: ir.Body) -> ir.Body:
         for at, statement in enumerate(body):
-            rewrite_parts(statement, lambda value: value, look)
+            visit_bodies(statement, look)
             number = _sets(statement)
             if number is not None and isinstance(statement, ir.Assign) and _start(number) != statement:
                 behind = body[at + 1 :]
@@ -138,7 +138,7 @@ def _without(routine: ir.Routine, unread: set[str]) -> ir.Routine:
 
     def body(statements: ir.Body) -> ir.Body:
         kept = [one for one in statements if not (isinstance(one, ir.Assign) and base_name(one.target) in unread)]
-        return tuple(rewrite_parts(one, lambda value: value, body) for one in kept)
+        return tuple(rewrite_bodies(one, body) for one in kept)
 
     return edit_bodies(routine, body)
 

@@ -14,7 +14,7 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 
 
 @legalising(
@@ -41,7 +41,7 @@ def _body(statements: ir.Body) -> ir.Body:
                 seen = [*seen, statement.target]
         elif not isinstance(statement, ir.Nothing):
             seen = []
-            statement = rewrite_parts(statement, lambda value: value, _body)
+            statement = rewrite_bodies(statement, _body)
         done.append(statement)
     return tuple(done)
 
