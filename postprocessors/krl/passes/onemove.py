@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, map_body
@@ -29,7 +29,7 @@ _TURNING = frozenset(("orientation_mode", "circle_orientation"))
 @legalising()
 def settings_of_one_move(program: ir.Program, context: Context) -> ir.Program:
     """Moves with settings of their own, but for spline moves, which have them in KRL."""
-    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.begun_by(program, context.source)
     reported: set[str] = set()
     always = _said_by_all(program)
 

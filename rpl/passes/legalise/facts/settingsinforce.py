@@ -16,7 +16,7 @@ from rpl.passes.legalise.facts.inforce import InForce
 from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
 from rpl.passes.legalise.facts.values.heldtexts import known_calls
 from rpl.passes.legalise.kinds import kinds_within
-from rpl.passes.scope import Scope
+from rpl.passes.scope import Scope, rules_of
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
 # What else is followed, because the size of a corner that a speed decides depends on it. The values are those of a
@@ -114,6 +114,11 @@ class SettingsInForce:
         found = cls(usage_of(program), start)
         _Settings(program, found)
         return found
+
+    @classmethod
+    def begun_by(cls, program: ir.Program, dialect: str) -> SettingsInForce:
+        """Follow the program as the controller of this dialect begins it."""
+        return cls.of(program, dict(rules_of(dialect).system_defaults))
 
     def arc_rule(self, move: ir.Move) -> str:
         """How the tool turns on an arc that does not say it: `base`, `path`; empty text: it hangs on the run."""

@@ -65,7 +65,7 @@ class _Stored:
     def program(self, program: ir.Program) -> ir.Program:
         scopes = ProgramScope(program)
         if rules_of(self.context.target).triggers.early_while_braking:
-            self.flow = SettingsInForce.of(program, dict(rules_of(self.context.source).system_defaults))
+            self.flow = SettingsInForce.begun_by(program, self.context.source)
         seen = [one for module in program.modules for one in module.declarations if isinstance(one, ir.Variable)]
         everywhere = frozenset(one.name.lower() for one in seen if one.scope == "global")
         return replace(program, modules=tuple(self.module(module, scopes, everywhere) for module in program.modules))

@@ -127,7 +127,7 @@ def three_point_arcs(program: ir.Program, context: Context) -> ir.Program:
     if not has_arcs(program):
         return program
     known, ours = unchanged_in(program), _default(context.source)
-    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.begun_by(program, context.source)
     default = (
         ""
         if any(isinstance(node, ir.Assign) and node.target == _RULE for node in walk_for({"Assign"}, program))

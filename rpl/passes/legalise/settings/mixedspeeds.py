@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
@@ -34,7 +34,7 @@ def mixed_speeds(program: ir.Program, context: Context) -> ir.Program:
     }
     if not mixed:
         return program
-    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.begun_by(program, context.source)
 
     def change(statement: ir.Statement) -> ir.Body:
         if not isinstance(statement, ir.Move):

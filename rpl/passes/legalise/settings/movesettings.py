@@ -68,7 +68,7 @@ class _Settings:
     def __post_init__(self) -> None:
         several = len({repr(value) for value in _tools(self.source)}) > 1
         self.told = several or SettingRule.TOOL_IN_FORCE not in self.context.capabilities.settings.rules
-        self.flow = SettingsInForce.of(self.source, dict(rules_of(self.context.source).system_defaults))
+        self.flow = SettingsInForce.begun_by(self.source, self.context.source)
         self.accelerations = Accelerations(self.source, self.context, self.flow.start)
 
     def says(self, name: str) -> bool:

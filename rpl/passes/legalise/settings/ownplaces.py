@@ -63,7 +63,7 @@ class _Places:
         self, program: ir.Program, context: Context, moving: frozenset[str], set: frozenset[str], questions: bool
     ) -> None:
         self.context, self.moving, self.set, self.questions = context, moving, set, questions
-        self.flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+        self.flow = SettingsInForce.begun_by(program, context.source)
         self.kept: dict[str, Shadow] = {}
 
     def done(self, program: ir.Program) -> ir.Program:

@@ -80,7 +80,7 @@ class _Strengths:
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         can = context.capabilities
-        self.context, self.flow = context, SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+        self.context, self.flow = context, SettingsInForce.begun_by(program, context.source)
         said = {name for node in walk_for({"Assign"}, *program.modules) for name in _set(node)}
         self.apart = has_both(context.source) or DOWN in said
         in_numbers = {"path_acceleration", "axis_acceleration"} <= can.settings.speeds

@@ -10,7 +10,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.fold import is_taught_type
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.scope import Scope
 from rpl.source import Origin
@@ -66,7 +66,7 @@ class JointsOfPlaces:
     def tell(self, move: ir.Move, scope: Scope, place: ir.Expression) -> None:
         """Of a move of this program."""
         if self.flow is None:
-            self.flow = SettingsInForce.of(self.program, dict(rules_of(self.context.source).system_defaults))
+            self.flow = SettingsInForce.begun_by(self.program, self.context.source)
         state = self.flow.at(move)
         seen = (move.tool or state["tool"], move.frame or state["base"])
         tell_written(self.context, scope, move.origin, "the joint values of this move", place, *seen)

@@ -107,7 +107,7 @@ def _found(program: ir.Program, context: Context, start: bool) -> dict[int, ir.E
         return {}
     if any(isinstance(node, ir.SetForNextMove) for node, _ in changes):
         return None
-    flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+    flow = SettingsInForce.begun_by(program, context.source)
     found: dict[int, ir.Expression | None] = {}
     for move in (one for one in walk_for({"Move"}, *program.modules) if isinstance(one, ir.Move)):
         if id(move) not in flow.moves or move.blend is not None or any(name == _JOINED for name, _ in move.settings):

@@ -20,7 +20,7 @@ from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
-from rpl.passes.legalise.context import Arm, Context, array, rules_of
+from rpl.passes.legalise.context import Arm, Context, array
 from rpl.passes.legalise.facts.motion.whereabouts import NOWHERE_KNOWN, Stand, Whereabouts
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
@@ -139,7 +139,7 @@ class _Speeds:
     def __init__(self, program: ir.Program, context: Context, source: Arm, arm: Arm) -> None:
         self.context, self.arm = context, arm
         self.percents = context.capabilities.settings.modal  # else speeds of the tool
-        self.flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+        self.flow = SettingsInForce.begun_by(program, context.source)
         self.unchanged = unchanged_in(program)
         self.given: dict[int, float | None] = {}
         scopes = ProgramScope(program)

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
@@ -42,7 +42,7 @@ class _Displacements(Rewriter):
 
     def __init__(self, program: ir.Program, context: Context) -> None:
         super().__init__(program, context)
-        self.flow = SettingsInForce.of(program, dict(rules_of(context.source).system_defaults))
+        self.flow = SettingsInForce.begun_by(program, context.source)
         self.at = ir.Name(context.fresh("displacement"))
         self.first = next(one for one in program.modules if any(map(_sets, walk(one))))
 

@@ -15,7 +15,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import PathRule
 from rpl.passes.fold import Unchanged, constant
-from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.motion.moveorder import pairs_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
@@ -100,7 +100,7 @@ class _Paths:
     def of(program: ir.Program, context: Context) -> _Paths:
         changed = {node.target for node in walk_for({"Assign"}, program) if isinstance(node, ir.Assign)}
         still = {name: ir.System(name) for name in ("tool", "base") if ir.System(name) not in changed}
-        found = _Paths(SettingsInForce.of(program, dict(rules_of(context.source).system_defaults)), dict(still))
+        found = _Paths(SettingsInForce.begun_by(program, context.source), dict(still))
         splines = any(
             isinstance(node, ir.Spline) for node in walk_for({"Spline"}, program)
         )  # they stand between moves that are a pair
