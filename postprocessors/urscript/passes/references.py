@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.ir.walk import bodies
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.effects import blocks, statements_in
-from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.facts.usage import base_name, written_in
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.places import fixed_place, is_open
@@ -85,7 +85,7 @@ class _Facts:
                         base = base_name(value)
                         if base in own:
                             handed.append(((routine.name.lower(), base), key))
-                for name in own & _assigned_in(routine):
+                for name in own & written_in(routine):
                     self.written.add((routine.name.lower(), name))
         size = -1
         while size != len(self.written):
@@ -144,27 +144,6 @@ def calls_in(routine: ir.Routine) -> list[tuple[str, tuple[ir.Argument, ...]]]:
     for one in bodies(routine):
         body(one)
     return found
-
-
-def _assigned_in(routine: ir.Routine) -> set[str]:
-    """Names that the routine writes itself (not by passing them on)."""
-    names: set[str | None] = set()
-    for body in bodies(routine):
-        for statement in statements_in(body):
-            match statement:
-                case ir.Assign(target=target):
-                    names.add(base_name(target))
-                case ir.For(counter=counter):
-                    names.add(counter.lower())
-                case ir.Do(arguments=values):
-                    names.update(base_name(value) for value in values if value is not None)
-                case ir.Move(search=ir.Search(found=found, hit=hit)):
-                    names.update(base_name(value) for value in (found, hit) if value is not None)
-            for part in ("answer", "timed_out", "clock"):
-                value = getattr(statement, part, None)
-                if isinstance(value, _LVALUES):
-                    names.add(base_name(value))
-    return {name for name in names if name is not None}
 
 
 def _rewritten(editor: Editor, routine: ir.Routine, facts: _Facts, results: dict[Key, str]) -> ir.Routine:

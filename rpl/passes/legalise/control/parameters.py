@@ -15,8 +15,8 @@ from rpl.passes.capabilities import Local, Parameters, RoutineRule
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.data.lists import sized
 from rpl.passes.legalise.facts.activations import Activations
-from rpl.passes.legalise.facts.effects import children, everything, expressions_in, is_constant, statements_in
-from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.facts.effects import expressions_in, is_constant, statements_in
+from rpl.passes.legalise.facts.usage import base_name, written_in
 from rpl.passes.legalise.rewriting.arraycopies import array_copy
 from rpl.passes.legalise.rewriting.bodies import Hoister, Lowered
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
@@ -164,7 +164,7 @@ class _Calls(Hoister):
         plan = plans.get(id(routine))
         if plan is None:
             return done
-        written = _written(done, self.editor.scope)
+        written = _written(done)
         start: list[ir.Statement] = []
         values: dict[str, ir.Expression] = {key: ir.Name(one.name) for key, one in plan.variables.items()}
         kept: list[ir.Declaration] = []
@@ -367,27 +367,16 @@ def _simple(value: ir.Expression) -> bool:
     return isinstance(value, ir.Name) or is_constant(value)
 
 
-def _written(routine: ir.Routine, scope: Scope) -> set[str]:
-    """Names that the routine may write, or takes apart."""
-    found: set[str | None] = set()
+def _written(routine: ir.Routine) -> set[str]:
+    """Names that the routine writes, or takes apart: an argument register has no parts."""
+    found = written_in(routine)
     for body in bodies(routine):
         for statement in statements_in(body):
-            match statement:
-                case ir.Assign(target=target):
-                    found.add(base_name(target))
-                case ir.For(counter=counter):
-                    found.add(counter.lower())
-                case ir.Do(arguments=values):
-                    found.update(base_name(value) for value in values if value is not None)
-                case ir.WaitUntil(timed_out=place) | ir.Dialog(answer=place) | ir.Clock(clock=place):
-                    found.add(base_name(place) if place is not None else None)
-            if isinstance(statement, ir.Dialog) and statement.timed_out is not None:
-                found.add(base_name(statement.timed_out))
-            for child in children(statement):
-                for one in everything(child):
-                    if isinstance(one, ir.Index | ir.Field):
-                        found.add(base_name(one))
-    return {name for name in found if name is not None}
+            for one in expressions_in(statement, {"Index", "Field"}):
+                if isinstance(one, ir.Index | ir.Field):
+                    name = base_name(one)
+                    found |= set() if name is None else {name}
+    return found
 
 
 def _renamed(body: ir.Body, values: dict[str, ir.Expression]) -> ir.Body:

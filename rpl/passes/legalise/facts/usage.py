@@ -141,6 +141,12 @@ def assigned_in(*found_in: ir.Body) -> set[str]:
     return {one.name for body in found_in for statement in body for one in _changes(statement)}
 
 
+def written_in(routine: ir.Routine) -> set[str]:
+    """Names (folded) that a routine writes itself, not by passing them on: assigned, counted, answered, found."""
+    statements = chain(*bodies(routine))
+    return {one.name for statement in statements for one in _changes(statement) if one.how != "passed"}
+
+
 def assigned_below(program: ir.Program) -> dict[str, set[str]]:
     """Routine (folded) -> names that it, or what it calls, assigns or passes where they could be changed."""
     return done_below(program, lambda statement: (one.name for one in _changes(statement)))
