@@ -6,7 +6,6 @@ from rpl.passes.capabilities import (
     ActionArguments,
     Aggregate,
     Capabilities,
-    Concurrent,
     Control,
     Data,
     Errors,
@@ -71,7 +70,7 @@ CAPABILITIES = Capabilities(
         move_functions=frozenset(("displaced",)),  # SFTON
     ),
     motion=Motion(
-        concurrent=Concurrent.MOVES,
+        concurrent=True,
         relative=True,
         turned_ways=frozenset((TurnedWay.BASE, TurnedWay.TOOL)),
         search_results=frozenset((SearchResult.FOUND, SearchResult.HIT)),

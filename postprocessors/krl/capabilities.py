@@ -9,7 +9,6 @@ from rpl.passes.capabilities import (
     Background,
     Capabilities,
     Composite,
-    Concurrent,
     Control,
     Data,
     DataRule,
@@ -74,9 +73,7 @@ CAPABILITIES = Capabilities(
         kinematics=("INVERSE", "FORWARD"),
         rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.PARTIAL, PlaceRule.TURNS)),
     ),
-    motion=Motion(
-        concurrent=Concurrent.ADVANCE, relative=True, paths=frozenset((PathRule.ARCS_BY_ANGLE, PathRule.EVEN_WRIST))
-    ),
+    motion=Motion(relative=True, paths=frozenset((PathRule.ARCS_BY_ANGLE, PathRule.EVEN_WRIST))),
     settings=Settings(modal=True),
     interrupts=Interrupts(
         action_arguments=frozenset((ActionArguments.OWN, ActionArguments.PATH, ActionArguments.REACTION)),

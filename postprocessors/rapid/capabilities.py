@@ -5,7 +5,6 @@ from __future__ import annotations
 from rpl.passes.capabilities import (
     Background,
     Capabilities,
-    Concurrent,
     Control,
     Counting,
     Data,
@@ -55,7 +54,7 @@ CAPABILITIES = Capabilities(
     names=NameRules(32, False, RESERVED, predefined=PREDEFINED, entry="main"),
     conversions=frozenset(("real", "round_half_away", "trunc", "truth", "code", "char")),
     places=Places(notation="rapid", rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.QUATERNIONS, PlaceRule.TURNS))),
-    motion=Motion(concurrent=Concurrent.MOVES, turned_ways=frozenset(), paths=frozenset()),
+    motion=Motion(concurrent=True, turned_ways=frozenset(), paths=frozenset()),
     settings=Settings(
         modal=False,
         rules=frozenset((SettingRule.ASKED_FRAME, SettingRule.TOOL_IN_FORCE)),

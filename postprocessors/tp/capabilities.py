@@ -9,7 +9,6 @@ from rpl.errors import UsageError
 from rpl.passes.capabilities import (
     Aggregate,
     Capabilities,
-    Concurrent,
     Control,
     Counting,
     Data,
@@ -106,7 +105,6 @@ CAPABILITIES = Capabilities(
         relative=True,
         turned_ways=frozenset((TurnedWay.JOINT, TurnedWay.TOOL)),
         search_results=frozenset((SearchResult.FOUND, SearchResult.HIT)),
-        concurrent=Concurrent.TASKS,
         # SEARCHED_DATA, M: SKIP CONDITION takes flags as it takes inputs and registers
         paths=frozenset((PathRule.EVEN_WRIST, PathRule.SEARCHED_DATA, PathRule.TIMED_ARCS, PathRule.TO_JOINTS)),
         triggers=frozenset((TriggerRule.LATE, TriggerRule.OF_MOVES)),

@@ -5,7 +5,6 @@ from __future__ import annotations
 from rpl.passes.capabilities import (
     Aggregate,
     Capabilities,
-    Concurrent,
     Control,
     Data,
     Errors,
@@ -74,7 +73,7 @@ CAPABILITIES = Capabilities(
         rules=frozenset((PlaceRule.IN_BASE, PlaceRule.TURNS)),
     ),
     motion=Motion(
-        concurrent=Concurrent.MOVES,
+        concurrent=True,
         turned_ways=frozenset(),
         search_results=frozenset((SearchResult.FOUND, SearchResult.HIT)),
         paths=frozenset((PathRule.FIXED_ARCS, PathRule.STRAIGHT_DISTANCES, PathRule.TO_JOINTS)),

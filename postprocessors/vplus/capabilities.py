@@ -7,7 +7,6 @@ from rpl.passes.capabilities import (
     Aggregate,
     Capabilities,
     Composite,
-    Concurrent,
     Control,
     Counting,
     Data,
@@ -96,7 +95,7 @@ CAPABILITIES = Capabilities(
         rules=frozenset((PlaceRule.IN_BASE, PlaceRule.WHOLE)),
     ),
     motion=Motion(
-        concurrent=Concurrent.MOVES,
+        concurrent=True,
         relative=True,
         paths=frozenset((PathRule.STRAIGHT_DISTANCES, PathRule.TIMED_ARCS, PathRule.TO_JOINTS)),
     ),

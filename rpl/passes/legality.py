@@ -19,7 +19,6 @@ from rpl.passes.capabilities import (
     Background,
     Capabilities,
     Composite,
-    Concurrent,
     DataRule,
     MoveSetting,
     Parameters,
@@ -180,7 +179,7 @@ def _of_move(move: ir.Move, can: Capabilities) -> str:
         return "even turn of the wrist"
     if move.relative is not None and not rules.relative:
         return "relative move"
-    return "concurrent move" if move.concurrent and rules.concurrent is Concurrent.NO else ""
+    return "concurrent move" if move.concurrent and not rules.concurrent else ""
 
 
 def _of_record(name: str, can: Capabilities) -> bool:

@@ -107,7 +107,7 @@ def test_v_plus_itself_keeps_its_order() -> None:
     ] and "begun-output" not in warned
 
 
-@pytest.mark.parametrize("target", ["krl", "rapid", "inform"])
+@pytest.mark.parametrize("target", ["rapid", "inform"])
 def test_a_second_move_begins_when_the_first_has_ended(target: str) -> None:
     """The watch behind the second move is looked at when that one begins, not at once."""
     program = f""".PROGRAM main()

@@ -10,7 +10,6 @@ from .framenumbers import frame_numbers
 from .groups import name_groups
 from .heldmotion import held_motion
 from .onemove import settings_of_one_move
-from .polledahead import polled_ahead
 from .roomytexts import roomy_texts
 from .searches import searches
 from .shifts import said_shifts
@@ -29,7 +28,6 @@ PASSES: tuple[Placed, ...] = (
     Placed(said_shifts, "settings", behind="stand_first"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(begun_anew, "storage", behind="drop_unused"),
-    Placed(polled_ahead, "storage", behind="ahead_readings"),
     Placed(roomy_texts, "storage", behind="one_spelling"),
     Placed(signals_by_name, "storage", behind="one_spelling"),
 )

@@ -5,7 +5,7 @@ from rpl.passes.capabilities.data import Aggregate, Composite, Data, DataRule
 from rpl.passes.capabilities.errors import Errors, Fault
 from rpl.passes.capabilities.interrupts import ActionArguments, InterruptRule, Interrupts, Watched
 from rpl.passes.capabilities.io import GroupRule, Io, PulseRule
-from rpl.passes.capabilities.motion import Concurrent, Motion, PathRule, SearchResult, TriggerRule, TurnedWay
+from rpl.passes.capabilities.motion import Motion, PathRule, SearchResult, TriggerRule, TurnedWay
 from rpl.passes.capabilities.names import AS_MODULE, NameRules
 from rpl.passes.capabilities.places import PlaceRule, Places, Postures
 from rpl.passes.capabilities.record import Capabilities
@@ -23,7 +23,6 @@ __all__ = [
     "Bank",
     "Capabilities",
     "Composite",
-    "Concurrent",
     "Control",
     "Counting",
     "Data",

@@ -63,15 +63,6 @@ class SearchResult(StrEnum):
     HIT = auto()
 
 
-class Concurrent(StrEnum):
-    """Whether a program goes on while a move is driven."""
-
-    NO = auto()  # it waits, which is named a loss
-    MOVES = auto()  # moves say so, or a task that watches drives them (Watched.ALL)
-    ADVANCE = auto()  # the program runs ahead over moves where it is allowed to
-    TASKS = auto()  # tasks do what stands beside the move
-
-
 @dataclass(frozen=True, slots=True)
 class Motion:
     """What moves can be."""
@@ -90,6 +81,7 @@ class Motion:
     """The smallest corner of a point that the writer cuts a straight move at for an action on its path; where the ends
     of the move are computed, a pass does it (0: moves are not cut)."""
 
-    concurrent: Concurrent = Concurrent.NO
+    concurrent: bool = False
+    """A move may say that the program goes on while it is driven, or a task that watches drives it (Watched.ALL)."""
 
     search_results: frozenset[SearchResult] = frozenset((SearchResult.FOUND,))

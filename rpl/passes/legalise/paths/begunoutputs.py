@@ -13,7 +13,6 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies, walk
-from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import blocks, is_constant
 from rpl.passes.legalise.facts.motion.advance import looks
@@ -38,10 +37,11 @@ def begun_outputs(program: ir.Program, context: Context) -> ir.Program:
     source, target = (rules_of(one).advance.runs_ahead_of for one in (context.source, context.target))
     if source != "begun" or target == "begun":
         return program
-    goes_on = context.capabilities.motion.concurrent
+    can = context.capabilities
+    ahead = target == "all" and {"LookAhead", "Trigger"} <= can.statements
     put: list[ir.Statement] = []
     modules = tuple(
-        replace(module, routines=tuple(_routine(one, goes_on, put) for one in module.routines))
+        replace(module, routines=tuple(_routine(one, can.motion.concurrent, ahead, put) for one in module.routines))
         for module in program.modules
     )
     program = replace(program, modules=modules)
@@ -49,8 +49,9 @@ def begun_outputs(program: ir.Program, context: Context) -> ir.Program:
     return program
 
 
-def _routine(routine: ir.Routine, goes_on: Concurrent, put: list[ir.Statement]) -> ir.Routine:
-    """The routine with its bodies changed; what now stands in front of a move comes to `put`."""
+def _routine(routine: ir.Routine, goes_on: bool, ahead: bool, put: list[ir.Statement]) -> ir.Routine:
+    """The routine with its bodies changed; what now stands in front of a move comes to `put`. goes_on: moves of the
+    target may go on beside the program; ahead: it runs ahead over moves, and an action at the begin comes in time."""
     given = frozenset(one.name.lower() for one in routine.parameters if one.mode == "reference")
 
     def placed(body: ir.Body) -> ir.Body:
@@ -65,7 +66,7 @@ def _routine(routine: ir.Routine, goes_on: Concurrent, put: list[ir.Statement]) 
                 if first and driving:  # the source is held here until that one ends
                     done.append(ir.WaitForMotion(origin=replace(statement.origin, comments=())))
                 driving = False
-                done.extend(_in_front(first, statement, goes_on is Concurrent.ADVANCE))
+                done.extend(_in_front(first, statement, ahead))
                 put.extend(done[-1 - len(first) : -1])
                 continue
             if isinstance(statement, ir.Move):
@@ -82,9 +83,9 @@ def _is(one: ir.Statement, other: ir.Statement) -> bool:
     return one is other
 
 
-def _waited_for(move: ir.Move, goes_on: Concurrent) -> bool:
+def _waited_for(move: ir.Move, goes_on: bool) -> bool:
     """Is what stands behind the move done when it ends, as it is written?"""
-    return move.search is None and not (move.concurrent and goes_on is not Concurrent.NO)
+    return move.search is None and not (move.concurrent and goes_on)
 
 
 def _at_begin(

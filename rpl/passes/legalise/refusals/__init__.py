@@ -18,7 +18,7 @@ from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.refusals.arm import ARM
 from rpl.passes.legalise.refusals.errors import ERRORS, serves_all_errors
-from rpl.passes.legalise.refusals.motion import MOTION
+from rpl.passes.legalise.refusals.motion import MOTION, WAITED_FOR
 from rpl.passes.legalise.refusals.routines import ROUTINES
 from rpl.passes.legalise.refusals.rows import Asked, Refusal
 from rpl.passes.legalise.refusals.settings import SETTINGS
@@ -75,6 +75,10 @@ def refuse(program: ir.Program, context: Context) -> ir.Program:
                 return (ir.Nothing(origin=statement.origin),) if statement.origin.comments else ()
             case ir.Critical(enter=False) if "Critical" not in context.capabilities.statements:
                 return (left_out(statement, "the section is refused where it begins"),)
+            case ir.Move(concurrent=True) if not context.capabilities.motion.concurrent:
+                report(WAITED_FOR, statement.origin)
+                statement = replace(statement, concurrent=False)
+                return changed(statement, asked) or (statement,)
             case ir.Vendor(dialect=owner, text=text, effect="tuning") if owner != context.target:
                 report(TUNING, statement.origin, text=text.strip())
                 remark = Comment(f" left out: {text.strip()}")

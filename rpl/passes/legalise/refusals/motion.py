@@ -18,7 +18,7 @@ from rpl.passes.legalise.source.rates import LOST as RATE
 from rpl.passes.legalise.source.ways.constantorientations import FIXED
 from rpl.passes.legalise.source.ways.constantorientations import LOST as KEPT
 
-__all__ = ["MOTION"]
+__all__ = ["MOTION", "WAITED_FOR"]
 
 INTERRUPT = code(
     "interrupt-lost",
@@ -40,6 +40,12 @@ ALONE = code(
     "the target holds back all interrupts or none, not one alone",
     "switch the interrupt off here, or let its routine ask a variable that is set here",
     stops=True,
+)
+WAITED_FOR = code(
+    "concurrent-move",
+    Severity.LOSS,
+    "the program goes on while this move is driven; the target's program waits for its end",
+    "write what stands beside the move as an action on its path, or in a task of its own",
 )
 _INTERRUPTS = frozenset(("DeclareInterrupt", "ConnectInterrupt"))
 
@@ -76,6 +82,7 @@ MOTION = (
     Refusal("an interrupt that brakes a move which goes on behind it", BRAKED),
     Refusal("a motion that an interrupt stops and that goes on before its routine has ended, or later", STAYS),
     Refusal("a move that a condition ends", SEARCH, (ir.Move,), _search),
+    Refusal("a move that the program does not wait for", WAITED_FOR),
     Refusal("an action at a place of an arc that the run decides", COMPUTED_ON_ARC),
     Refusal("an action on the way of a joint move, where moves are cut at places", ON_JOINT_MOVE),
     Refusal("an action on the path that no task beside the move can do", NO_PATH_TASK),

@@ -12,6 +12,6 @@ STAGE = Stage(
     (refuse,),
     Clause(
         statements="ConnectInterrupt ControlInterrupt DeclareInterrupt OnError",
-        further=frozenset(("search of a move",)),
+        further=frozenset(("concurrent move", "search of a move")),
     ),
 )

@@ -92,13 +92,9 @@ class Beside:
         """A new routine in the module of another one."""
         self.made.setdefault(self.homes[id(routine)], []).append(made)
 
-    def task(self, routine: ir.Routine, stem: str, body: ir.Body, own: bool = True) -> str:
-        """A routine that is begun as a task; its name. `own`: it may have variables of its own (else all are the
-        program's, whatever they are called)."""
+    def task(self, routine: ir.Routine, stem: str, body: ir.Body) -> str:
+        """A routine that is begun as a task; its name."""
         name = self.context.fresh(stem)
-        if not own:
-            self.routine(routine, ir.Routine(name, body=body, scope="global"))
-            return name
         used = {node.id for node in walk(*body) if isinstance(node, ir.Name)}
         mine = tuple(ir.Variable(word, type, scope="routine") for word, type in _OWN.items() if word in used)
         self.routine(routine, ir.Routine(name, declarations=mine, body=body, scope="global"))
@@ -150,9 +146,7 @@ class Beside:
                     return False
         return True
 
-    def own(
-        self, editor: Editor, routine: ir.Routine, body: ir.Body, before: list[ir.Statement], stem: str = "rpl_given"
-    ) -> ir.Body:
+    def own(self, editor: Editor, routine: ir.Routine, body: ir.Body, before: list[ir.Statement]) -> ir.Body:
         """The statements with copies in place of the routine's variables; the copies are made before."""
         local = local_names(routine)
         copies: dict[str, ir.Name] = {}
@@ -165,7 +159,7 @@ class Beside:
                 type = editor.type_of(node)
                 if type is None:
                     return node
-                copy = self.kept(editor, routine, stem, type)
+                copy = self.kept(editor, routine, "rpl_given", type)
                 copies[node.id.lower()] = copy
                 before.append(ir.Assign(copy, ir.Name(node.id)))
             return ir.Name(copy.id, origin=node.origin)

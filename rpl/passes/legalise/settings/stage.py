@@ -15,7 +15,6 @@ from rpl.passes.legalise.settings.corners.standing import stand_first
 from rpl.passes.legalise.settings.corners.turningzones import reduced_zones
 from rpl.passes.legalise.settings.explicit import explicit_to_modal
 from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
-from rpl.passes.legalise.settings.movesahead import moves_ahead
 from rpl.passes.legalise.settings.movesettings import settings_at_moves
 from rpl.passes.legalise.settings.ownplaces import own_places
 from rpl.passes.legalise.settings.scaledspeeds import scaled_override
@@ -39,7 +38,6 @@ STAGE = Stage(
         own_places,
         mixed_speeds,
         corner_steps,
-        moves_ahead,
         explicit_to_modal,
         kept_corners,
         settings_at_moves,

@@ -6,7 +6,7 @@ from rpl import ir
 from rpl.passes.legalise.facts.usage import each_expression
 from rpl.passes.scope import Scope
 
-SEEN = frozenset(("current_target", "current_joints", "current_position"))
+_SEEN = frozenset(("current_target", "current_joints", "current_position"))
 _OF_NOW = frozenset(("actual_pose", "actual_joints", "actual_joint"))
 # Behind these nothing is known of the move that the robot drives.
 UNKNOWN_BEHIND = (
@@ -21,7 +21,7 @@ def looks(node: object) -> bool:
         case ir.System(name=name):
             return name in _OF_NOW
         case ir.Builtin(function=function):
-            return function in SEEN
+            return function in _SEEN
     return False
 
 

@@ -9,7 +9,6 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import Concurrent
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.motion.advance import looks, touches
 from rpl.passes.legalise.facts.usage import doing, usage_of
@@ -39,7 +38,7 @@ def corner_steps(program: ir.Program, context: Context) -> ir.Program:
     source, target = (rules_of(one).advance for one in (context.source, context.target))
     if source.runs_ahead_of != "fly_by" or source.signals_stop:
         return program
-    ahead = target.runs_ahead_of == "all" and context.capabilities.motion.concurrent is Concurrent.ADVANCE
+    ahead = target.runs_ahead_of == "all" and "LookAhead" in context.capabilities.statements
     if not ahead and target.runs_ahead_of != "begun":
         return program
     busy, assigned = doing(program, _is_busy), usage_of(program).assigned
