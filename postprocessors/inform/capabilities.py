@@ -74,8 +74,7 @@ CAPABILITIES = Capabilities(
         relative=True,
         turned_ways=frozenset((TurnedWay.BASE, TurnedWay.TOOL)),
         search_results=frozenset((SearchResult.FOUND, SearchResult.HIT)),
-        cut_from_mm=tables.TAGS["CR"][0],
-        paths=frozenset((PathRule.CURVE_POINTS, PathRule.STRAIGHT_DISTANCES, PathRule.TO_JOINTS)),
+        paths=frozenset((PathRule.CURVE_POINTS, PathRule.CUT, PathRule.STRAIGHT_DISTANCES, PathRule.TO_JOINTS)),
         triggers=frozenset((TriggerRule.ANY_VARIABLE,)),
     ),
     settings=Settings(

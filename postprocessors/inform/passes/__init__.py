@@ -13,6 +13,7 @@ from .groupsizes import groups_in_sizes
 from .jointways import stand_before_ways
 from .longconditions import short_conditions
 from .moveactions import actions_of_moves
+from .pathpoints import path_points
 from .shiftedpoints import shifted_points
 from .takenbranches import taken_branches
 from .watches import counted_watches
@@ -24,6 +25,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(stand_before_ways, "settings", behind="reduced_zones"),
     Placed(frame_numbers, "settings", behind="stand_first"),
     Placed(shifted_points, "settings", behind="stand_first"),
+    Placed(path_points, "records", behind="arc_distances"),
     Placed(short_conditions, "control", behind="steps"),
     Placed(again(short_conditions, "opposites of conditions are longer"), "control", behind="steps again"),
     Placed(number_dialogs, "statements", behind="decide_logic"),

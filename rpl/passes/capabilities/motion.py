@@ -33,6 +33,9 @@ class PathRule(StrEnum):
     """Moves of the kind spline in a row, from a first one at its beginning, are one curve through points (INFORM
     MOVS); there are no spline blocks."""
 
+    CUT = auto()
+    """A move between constants is cut at the places of its actions, by passes of the target."""
+
     TO_JOINTS = auto()
     """A straight move may go to joint values."""
 
@@ -76,10 +79,6 @@ class Motion:
     paths: frozenset[PathRule] = frozenset((PathRule.TO_JOINTS, PathRule.EVEN_WRIST))
 
     triggers: frozenset[TriggerRule] = frozenset((TriggerRule.LATE, TriggerRule.ANY_VARIABLE))
-
-    cut_from_mm: float = 0.0
-    """The smallest corner of a point that the writer cuts a straight move at for an action on its path; where the ends
-    of the move are computed, a pass does it (0: moves are not cut)."""
 
     concurrent: bool = False
     """A move may say that the program goes on while it is driven, or a task that watches drives it (Watched.ALL)."""

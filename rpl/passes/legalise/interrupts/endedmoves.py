@@ -20,9 +20,9 @@ from rpl.passes.legalise.facts.usage import called_below
 from rpl.passes.legalise.facts.watches import Watch
 from rpl.passes.legalise.rewriting.beside import closure, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, expansion, map_body
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import default_value
-from rpl.passes.legalise.settings.movesettings import plain
 
 __all__ = ["CORNER", "EndedMoves", "goes_on", "unending"]
 

@@ -18,7 +18,7 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.paths.storedevents import events_before_moves
 from rpl.passes.legalise.rewriting.earlyways import by_way
 from rpl.passes.legalise.rewriting.editing import edit_bodies
-from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import ProgramScope, Scope

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.fold import Unchanged, constant_number
-from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.scope import Scope
 
 

@@ -8,7 +8,6 @@ tool and frame, and before those that take positions and functions apart.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rpl import ir
@@ -19,15 +18,14 @@ from rpl.passes.capabilities import PathRule
 from rpl.passes.curves import circle_through
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.facts.usage import base_name, usage_of
+from rpl.passes.legalise.facts.motion.knownends import ends_known, in_base, seen_by_writers, written
+from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.records.pathevents import in_base
 from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import stopped
-from rpl.passes.legalise.rewriting.walk import unchanged_in
-from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typing import type_of
 from rpl.passes.values import Target
@@ -76,6 +74,11 @@ class _Arcs:
     unchanged: Unchanged
     last: ir.Move | None = None  # the move before, as far as it is known and nothing has changed its data
 
+    @property
+    def cuts(self) -> bool:
+        """Are moves between constants cut, so that what is not cut here has no constants?"""
+        return PathRule.CUT in self.context.capabilities.motion.paths
+
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
         waiting: list[ir.Trigger] = []
@@ -110,9 +113,9 @@ class _Arcs:
 
     def move(self, move: ir.Move, before: list[ir.Trigger]) -> ir.Body:
         given = [one for one in (*before, *move.triggers) if isinstance(one, ir.Trigger)]
-        cut = self.context.capabilities.motion.cut_from_mm and written(move, given, self.editor, self.unchanged)
-        if cut and ends_known(self.last, move, self.editor, self.unchanged):
-            return (*before, move)  # the writer cuts the arc itself
+        cut = self.cuts and written(move, given, self.editor.scope, self.unchanged)
+        if cut and ends_known(self.last, move, self.editor.scope, self.unchanged):
+            return (*before, move)  # a pass of the target cuts the arc itself
         if move.kind != "circular":
             return (*before, move)
         stops, move, before = self.without(move, before, [one for one in given if self.is_timed(one, move)], TIMED)
@@ -171,8 +174,7 @@ class _Arcs:
 
     def points(self, move: ir.Move) -> list[rigid.Vector] | None:
         """Start, point on the way and end, where all are constants."""
-        cuts = self.context.capabilities.motion.cut_from_mm  # and has not: a writer sees no constants here
-        if cuts or self.last is None or self.last.relative or move.via is None:
+        if self.cuts or self.last is None or self.last.relative or move.via is None:
             return None
         found = []
         for one, target in ((self.last, self.last.target), (move, move.via), (move, move.target)):
@@ -185,35 +187,6 @@ class _Arcs:
 
     def in_base(self, move: ir.Move, target: ir.Expression) -> ir.Expression:
         return in_base(move, target, type_of(target, self.editor.scope))
-
-
-def seen_by_writers(program: ir.Program, context: Context) -> Unchanged:
-    """What a writer sees as a constant: what nothing sets, data lists neither, and the controller's own tables."""
-    own = {name.lower() for name in context.capabilities.storage.own}
-    return Unchanged(usage_of(program).assigned - own, unchanged_in(program).initialised)
-
-
-def ends_known(last: ir.Move | None, move: ir.Move, editor: Editor, unchanged: Unchanged) -> bool:
-    """Are both ends of a move constants that a writer sees as such?"""
-    if last is None or any(isinstance(one.target, ir.Builtin) for one in (last, move)):
-        return False  # not known, or computed from a constant by the program itself
-    type = type_of(last.target, editor.scope)
-    start = last.target if type is None else in_base(last, last.target, type)
-    ends = (start, in_base(move, move.target, type_of(move.target, editor.scope)))
-    return all(constant(one, editor.scope, unchanged) is not None for one in ends)
-
-
-def written(move: ir.Move, triggers: Sequence[ir.Trigger], editor: Editor, unchanged: Unchanged) -> bool:
-    """Are the places of these actions along the move constants?"""
-    parts = [one for trigger in triggers for one in (trigger.distance, trigger.delay) if one is not None]
-    delays = [plain(one.delay) for one in triggers if one.delay is not None]
-    if (
-        move.speed is not None
-        and move.speed.path is not None
-        and any(constant_number(one, editor.scope) != 0 for one in delays)
-    ):
-        parts.append(move.speed.path)
-    return all(constant_number(plain(one), editor.scope, unchanged) is not None for one in parts)
 
 
 def _arc(points: list[rigid.Vector]) -> tuple[float, float] | None:
@@ -239,4 +212,4 @@ def _is(node: object, name: str | None) -> bool:
     return isinstance(node, ir.Name) and node.id.lower() == name
 
 
-__all__ = ["STRAIGHT", "TIMED", "arc_distances", "ends_known", "seen_by_writers", "written"]
+__all__ = ["STRAIGHT", "TIMED", "arc_distances"]

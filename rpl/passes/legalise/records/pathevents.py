@@ -14,12 +14,13 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
 from rpl.passes.capabilities import TriggerRule, Watched
 from rpl.passes.legalise.context import Context, rules_of
+from rpl.passes.legalise.facts.motion.knownends import in_base
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.beside import Beside, local_names, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.support import with_support
-from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typing import type_of
 from rpl.source import Origin
@@ -345,15 +346,6 @@ class _Events:
     def place(self, move: ir.Move, target: ir.Expression) -> ir.Expression:
         """A target in the robot's base."""
         return in_base(move, target, type_of(target, self.editor.scope))
-
-
-def in_base(move: ir.Move, target: ir.Expression, type: ir.Type | None) -> ir.Expression:
-    """A target of a move as a pose in the robot's base."""
-    if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near":
-        target, type = target.arguments[0], ir.PoseType()
-    if isinstance(type, ir.JointsType):
-        return ir.Builtin("joints_to_target", (target,))
-    return target if move.frame is None else ir.Binary(":", move.frame, target)
 
 
 def _corner(blend: ir.Blend | None) -> ir.Expression | None:

@@ -10,7 +10,6 @@ from rpl.passes.legalise.records.arithmetic import arithmetic
 from rpl.passes.legalise.records.flatrecords import flat_records
 from rpl.passes.legalise.records.geometry import geometry
 from rpl.passes.legalise.records.pathevents import path_events
-from rpl.passes.legalise.records.pathpoints import path_points
 from rpl.passes.legalise.records.seenplaces import posed_places, seen_places
 from rpl.passes.legalise.records.unreadparameters import drop_unread_parameters
 from rpl.passes.legalise.records.watching import watching
@@ -21,7 +20,6 @@ STAGE = Stage(
     "records",
     (
         arc_distances,
-        path_points,
         seen_places,
         posed_places,
         aggregates,

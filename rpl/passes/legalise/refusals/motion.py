@@ -10,10 +10,9 @@ from rpl.passes.legalise.places.nextmove.queuedwaits import PAUSED_TIMED
 from rpl.passes.legalise.records.arcdistances import STRAIGHT as COMPUTED_ON_ARC
 from rpl.passes.legalise.records.arcdistances import TIMED as TIMED_ON_ARC
 from rpl.passes.legalise.records.pathevents import NOT_WATCHED as NO_PATH_TASK
-from rpl.passes.legalise.records.pathpoints import ON_JOINT_MOVE
 from rpl.passes.legalise.records.watching import LOST as NOT_WATCHED
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
-from rpl.passes.legalise.rewriting.refusedactions import BRAKED, STAYS
+from rpl.passes.legalise.rewriting.refusedactions import BRAKED, ON_JOINT_MOVE, STAYS
 from rpl.passes.legalise.source.rates import LOST as RATE
 from rpl.passes.legalise.source.ways.constantorientations import FIXED
 from rpl.passes.legalise.source.ways.constantorientations import LOST as KEPT

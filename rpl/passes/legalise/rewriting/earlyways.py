@@ -7,8 +7,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.motion.saidaccelerations import number_of
-from rpl.passes.legalise.rewriting.formulas import function, minus, number, times
-from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.rewriting.formulas import function, minus, number, plain, times
 
 _USUAL_MM_S2 = 5000.0  # path acceleration where the target's rules name none
 

@@ -44,3 +44,17 @@ def _chain(op: str, parts: tuple[ir.Expression, ...]) -> ir.Expression:
     for one in parts[1:]:
         done = ir.Binary(op, done, one)
     return done
+
+
+def plain(value: ir.Expression) -> ir.Expression:
+    """A quantity as a number in base units."""
+    match value:
+        case ir.Quantity(value=inner, unit=unit):
+            factor = ir.UNITS[unit]
+            match inner:
+                case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
+                    return ir.RealLiteral(float(f"{number * factor:.12g}"), origin=inner.origin)
+            return inner if factor == 1.0 else ir.Binary("*", inner, ir.RealLiteral(factor))
+        case ir.IntLiteral(value=number):
+            return ir.RealLiteral(float(number), origin=value.origin)
+    return value

@@ -2,7 +2,8 @@
 where it is set: its action never runs.
 
 The statements of its routine that only make sense in one (stop the motion, let it go on, leave a level, go on behind
-what has failed) are remarks there, so that the refusal stands once.
+what has failed) are remarks there, so that the refusal stands once. Here also stand the refusals of actions that
+passes of several targets report.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_bo
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.stopping import left_out
 
-__all__ = ["BRAKED", "REFUSED", "STAYS", "without_actions"]
+__all__ = ["BRAKED", "ON_JOINT_MOVE", "REFUSED", "STAYS", "without_actions"]
 
 BRAKED = code(
     "braked-move-lost",
@@ -33,6 +34,13 @@ STAYS = code(
     "{routine} stops the robot, and lets it go on in a branch, in another routine or before it has ended: on the target"
     " it goes on when the interrupt routine ends",
     "start the motion again in the routine that stops it, behind everything that takes time",
+    stops=True,
+)
+ON_JOINT_MOVE = code(
+    "path-event-on-joint-move",
+    Severity.LOSS,
+    "an action comes before the end of a joint move, which the target cuts nowhere",
+    "drive straight there, or do it at the end",
     stops=True,
 )
 REFUSED = "its interrupt is refused where it is declared"

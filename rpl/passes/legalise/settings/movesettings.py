@@ -18,6 +18,7 @@ from rpl.passes.legalise.facts.motion.saidaccelerations import SAID, Acceleratio
 from rpl.passes.legalise.facts.settingsinforce import SETTINGS, SettingsInForce, State
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.settingwords import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
 from rpl.passes.legalise.rewriting.shadows import Shadow, only_served
 from rpl.passes.legalise.settings.coordinatedmoves import REMOTE
@@ -306,17 +307,3 @@ def _modal(blend: ir.Blend | None) -> bool:
         case ir.BlendPercent(percent=ir.System()) | ir.BlendSpeed(percent=ir.System()):
             return True
     return False
-
-
-def plain(value: ir.Expression) -> ir.Expression:
-    """A quantity as a number in base units."""
-    match value:
-        case ir.Quantity(value=inner, unit=unit):
-            factor = ir.UNITS[unit]
-            match inner:
-                case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
-                    return ir.RealLiteral(float(f"{number * factor:.12g}"), origin=inner.origin)
-            return inner if factor == 1.0 else ir.Binary("*", inner, ir.RealLiteral(factor))
-        case ir.IntLiteral(value=number):
-            return ir.RealLiteral(float(number), origin=value.origin)
-    return value

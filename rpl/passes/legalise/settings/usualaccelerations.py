@@ -15,7 +15,7 @@ from rpl.ir.walk import rewrite
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.settings.movesettings import plain
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.stages import legalising
 
 DIFFERS = code(

@@ -19,8 +19,8 @@ from rpl.passes.capabilities import Background
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.jumps import inside
-from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
 from rpl.source import NOWHERE, Origin

@@ -15,10 +15,10 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.settingwords import JOINT_BLEND
 from rpl.passes.legalise.settings.explicit import JOINT_SPEED_BLEND
-from rpl.passes.legalise.settings.movesettings import plain
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import ZONE_MM_PER_PERCENT
 

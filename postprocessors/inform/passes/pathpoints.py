@@ -1,8 +1,8 @@
 """Actions on the way of a straight move whose ends are computed: the program computes the point and drives through it.
 
-For targets without a word for a place on a path, whose writers cut moves between known points themselves. The pieces
-follow each other with the smallest corner there is; the action stands behind its point. Behind the passes that give
-each move its tool, frame and speed, and before those that take positions and functions apart.
+Moves between known points are cut in front of the writer (`cutmoves`). The pieces follow each other with the smallest
+corner there is; the action stands behind its point. Behind the passes that give each move its tool, frame and speed,
+and before those that take positions and functions apart.
 """
 
 from __future__ import annotations
@@ -15,19 +15,21 @@ from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.fold import Unchanged, constant, constant_number
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.motion.knownends import ends_known, in_base, seen_by_writers, written
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.records.arcdistances import ends_known, seen_by_writers, written
-from rpl.passes.legalise.records.pathevents import in_base
 from rpl.passes.legalise.rewriting.beside import closure, moves_or_waits, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines
+from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.jumps import inside
+from rpl.passes.legalise.rewriting.library import Library
+from rpl.passes.legalise.rewriting.refusedactions import ON_JOINT_MOVE
 from rpl.passes.legalise.rewriting.stopping import stopped
-from rpl.passes.legalise.settings.movesettings import plain
-from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.typing import type_of
 from rpl.passes.values import Target
+
+from .. import tables
 
 COMPUTED = code(
     "path-event-point",
@@ -39,33 +41,27 @@ SMALLER = code(
     Severity.WARNING,
     "an action on the path is {rest:.1f} mm before a corner of {corner:.1f} mm, which may be cut to half of that way",
 )
-ON_JOINT_MOVE = code(
-    "path-event-on-joint-move",
-    Severity.LOSS,
-    "an action comes before the end of a joint move, which the target cuts nowhere",
-    "drive straight there, or do it at the end",
-    stops=True,
-)
 _MOVED = {"base": "offset", "tool": "tool_offset"}  # what a relative move does to the place where it begins
 _ORDER = "; what is counted from its start is done before what is counted from its end"
 _NEAR_MM = 0.5  # an action that near to an end of the move is at the end
 _SAME_TURN = 1.0 - 1e-12  # product of two quaternions
+_CORNER_MM = tables.TAGS["CR"][0]  # of the points where moves are cut
 _MOTION = (ir.Move, ir.MoveExternal, ir.Spline, ir.StopMotion, ir.StartMotion, ir.ClearMotion, ir.ResumeLevel)
 
 
-@legalising(unless=lambda context: not context.capabilities.motion.cut_from_mm, sees=("Trigger",))
+@legalising(sees=("Trigger",))
 def path_points(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets whose moves are cut."""
+    """What happens at such a point stands behind it as a statement."""
     if not any(isinstance(node, ir.Trigger) for node in walk_for({"Trigger"}, *program.modules)):
         return program
     drivers = closure(program, _MOTION)
-    unchanged = seen_by_writers(program, context)
+    unchanged, library = seen_by_writers(program, context), Library(context, ("geometry",))
 
     def work(editor: Editor, routine: ir.Routine) -> ir.Routine:
-        return edit_bodies(routine, _Points(context, editor, drivers, unchanged).body)
+        return edit_bodies(routine, _Points(context, editor, drivers, unchanged, library).body)
 
     done = edit_routines(program, context, work)
-    return program if done is program else rotation_vectors(done, context)
+    return library.added_to(done, done.modules[0].task)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +85,7 @@ class _Points:
     editor: Editor
     drivers: frozenset[str]
     unchanged: Unchanged
+    library: Library
     last: ir.Move | None = None  # the move before, as far as it is known and nothing has changed its data
     temporaries: dict[str, ir.Name] = field(default_factory=dict)
 
@@ -134,7 +131,7 @@ class _Points:
             return (first[0], *self.move(first[1], before, goes_on))
         plain_move = move.kind == "linear" and not move.relative and move.search is None and not move.concurrent
         if not plain_move:
-            told = move.kind == "circular" and written(move, given, self.editor, self.unchanged)
+            told = move.kind == "circular" and written(move, given, self.editor.scope, self.unchanged)
             known = told and self.is_known(move, [])
             refused = [] if known else [one for one in given if self.on_joint_move(one, move)]
             if not refused:
@@ -180,8 +177,8 @@ class _Points:
         if not isinstance(move.blend, ir.BlendDistance) or move.blend.distance is None or not last.from_end:
             return
         size = constant_number(move.blend.distance, self.editor.scope, self.unchanged)
-        if size is not None and last.known is not None and last.known - self.corner < 2 * size:
-            self.context.diagnostics.report(SMALLER, move.origin, rest=last.known - self.corner, corner=size)
+        if size is not None and last.known is not None and last.known - _CORNER_MM < 2 * size:
+            self.context.diagnostics.report(SMALLER, move.origin, rest=last.known - _CORNER_MM, corner=size)
 
     def event(self, trigger: ir.Trigger, move: ir.Move) -> _Event | None:
         """None: it comes at an end of the move."""
@@ -195,7 +192,7 @@ class _Points:
         if None not in numbers:
             sign = -1.0 if from_end else 1.0
             known = sign * sum(one for one in numbers if one is not None)
-            if known < _NEAR_MM + (self.corner if from_end else 0.0):
+            if known < _NEAR_MM + (_CORNER_MM if from_end else 0.0):
                 return None
             return _Event(trigger, from_end, ir.RealLiteral(float(f"{known:.9g}")), known)
         if from_end and self.is_late(trigger):
@@ -212,10 +209,6 @@ class _Points:
         ]
         return None not in numbers and all(number >= 0.0 for number in numbers if number is not None)
 
-    @property
-    def corner(self) -> float:
-        return self.context.capabilities.motion.cut_from_mm
-
     def on_joint_move(self, trigger: ir.Trigger, move: ir.Move) -> bool:
         """Does it come on the way of a joint move, before its end?"""
         if move.kind != "joint" or move.relative is not None or move.search is not None or move.concurrent:
@@ -229,7 +222,7 @@ class _Points:
     def is_known(self, move: ir.Move, events: list[_Event]) -> bool:
         """Are both ends and the places constants that the writer sees as such?"""
         measured = all(one.known is not None for one in events)
-        return measured and ends_known(self.last, move, self.editor, self.unchanged)
+        return measured and ends_known(self.last, move, self.editor.scope, self.unchanged)
 
     # ---- the pieces
 
@@ -243,16 +236,20 @@ class _Points:
         done.append(ir.Assign(one, start, origin=move.origin))
         done.append(ir.Assign(other, end))
         done.append(ir.Assign(length, ir.Builtin("distance", (ir.Field(one, "trans"), ir.Field(other, "trans")))))
-        smallest = ir.BlendDistance(ir.RealLiteral(self.corner))
+        smallest = ir.BlendDistance(ir.RealLiteral(_CORNER_MM))
         for at, event in enumerate(events):
             again = at > 0 and event.known is not None and event.order == events[at - 1].order
             if not again:
-                done.extend(_shared(event, length, share, self.corner))
-                done.extend(_placed(one, other, point, share, turns))
+                done.extend(_shared(event, length, share))
+                done.extend(self.placed(one, other, point, share) if turns else _placed(one, other, point, share))
                 done.append(replace(move, target=point, frame=frame, blend=smallest, origin=tidy(move.origin)))
             action = event.trigger.action
             done.append(replace(action, origin=event.trigger.origin))
         return [s if s.origin.source is not None else replace(s, origin=tidy(move.origin)) for s in done]
+
+    def placed(self, one: ir.Name, other: ir.Name, point: ir.Name, share: ir.Name) -> ir.Body:
+        """The point between ends where the tool is turned differently."""
+        return (ir.Assign(point, self.library.call("rpl_interpolate_pose", one, other, share)),)
 
     def temporary(self, stem: str, type: ir.Type) -> ir.Name:
         if stem not in self.temporaries:
@@ -326,9 +323,9 @@ def _rotated_as(place: ir.Expression) -> ir.Expression:
     return place
 
 
-def _shared(event: _Event, length: ir.Name, share: ir.Name, corner: float) -> ir.Body:
+def _shared(event: _Event, length: ir.Name, share: ir.Name) -> ir.Body:
     """How much of the way is done at the point; what stands behind the point is done where its corner begins."""
-    far = _moved(event, -corner if event.from_end else corner)
+    far = _moved(event, -_CORNER_MM if event.from_end else _CORNER_MM)
     part: ir.Expression = ir.Binary("/", far, length)
     if event.from_end:
         part = ir.Binary("-", ir.RealLiteral(1.0), part)
@@ -343,13 +340,14 @@ def _moved(event: _Event, by: float) -> ir.Expression:
     return ir.Binary("+", event.way, ir.RealLiteral(by))
 
 
-def _placed(one: ir.Name, other: ir.Name, point: ir.Name, share: ir.Name, turns: bool) -> ir.Body:
-    """The point between the ends."""
-    if turns:
-        return (ir.Assign(point, ir.Builtin("interpolate_pose", (one, other, share))),)
+def _placed(one: ir.Name, other: ir.Name, point: ir.Name, share: ir.Name) -> ir.Body:
+    """The point between ends where the tool is turned the same way."""
     done: list[ir.Statement] = [ir.Assign(point, one)]
     for name in ("x", "y", "z"):
         way = ir.Binary("-", ir.Field(other, name), ir.Field(one, name))
         value = ir.Binary("+", ir.Field(one, name), ir.Binary("*", way, share))
         done.append(ir.Assign(ir.Field(point, name), value))
     return tuple(done)
+
+
+__all__ = ["path_points"]
