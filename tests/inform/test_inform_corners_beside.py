@@ -42,7 +42,7 @@ def changes(result: RunResult) -> list[tuple[float, object]]:
     return [(time, value) for time, _, value in result.outputs]
 
 
-@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("target", [one for one in TARGETS if one not in ("krl", "tp")])  # they wait for the move
 @pytest.mark.parametrize("size", ["", " PL=2", " PL=0", " CR=10.0"])
 def test_what_is_done_beside_a_move_with_a_corner(target: str, size: str) -> None:
     body = f"""

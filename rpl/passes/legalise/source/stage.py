@@ -48,6 +48,7 @@ from rpl.passes.legalise.source.texts.wholetexts import whole_texts
 from rpl.passes.legalise.source.timedwaits import timed_waits
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
+from rpl.passes.legalise.source.ways.placewaits import place_waits
 from rpl.passes.legalise.source.ways.splines import straight_splines, without_path_rules
 from rpl.passes.legalise.source.ways.turnedways import turned_ways
 from rpl.passes.legalise.source.wholeformulas import whole_formulas
@@ -83,6 +84,7 @@ STAGE = Stage(
         counted_loops,
         timed_waits,
         same_units,
+        place_waits,
         cyclic_flags,
         named_flags,
         without_path_rules,
