@@ -103,9 +103,10 @@ def test_a_program_for_such_a_controller_switches_it_off() -> None:
 
 def test_corners_by_speed_follow() -> None:
     """The corner is the way in which the move brakes: 500 mm/s with half of 5000 mm/s2. For URScript just
-    less than half of the way of 100 mm, so that it keeps clear of the next corner."""
+    less than half of the way of 100 mm, so that it keeps clear of the next corner; for TP
+    the percentage that begins there."""
     text = PLUS.format(before="").replace("MOVES b\n  BREAK\n  SPEED 30", "MOVES b\n  SPEED 30")
-    for target, corner in (("rapid", "z50"), ("urscript", "r=0.04999"), ("inform", "CR=50.0"), ("tp", "CR50")):
+    for target, corner in (("rapid", "z50"), ("urscript", "r=0.04999"), ("inform", "CR=50.0"), ("tp", "CNT75 ACC50")):
         source = read_sources([source_from_text("main.v2", text)], "vplus", Diagnostics())
         files = translate_program(source, target, ARM, None, Diagnostics()).files
         assert corner in "\n".join(file.data.decode("utf-8", "replace") for file in files), target

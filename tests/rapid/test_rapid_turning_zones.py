@@ -42,10 +42,10 @@ TURN_60, TURN_10, NO_TURN = "[0,0.5,0.8660254,0]", "[0,0.0871557,0.9961947,0]", 
 
 @pytest.mark.parametrize(
     ("target", "reduced", "whole"),
-    [("krl", "$APO.CDIS=5", "$APO.CDIS=20"), ("urscript", "r=0.005", "r=0.02"), ("tp", "CR5", "CR20")],
+    [("krl", "$APO.CDIS=5", "$APO.CDIS=20"), ("urscript", "r=0.005", "r=0.02"), ("tp", "CNT75", "CNT100")],
 )
 def test_a_reduced_zone_is_written_with_its_size(target: str, reduced: str, whole: str) -> None:
-    """60 degrees over 100 mm: 3/60 of 100 is 5 mm."""
+    """60 degrees over 100 mm: 3/60 of 100 is 5 mm; as CNT at 100 mm/s 75 (20 mm: more than that controller drives)."""
     text, codes = translated(module(TURN_60), "rapid", target)
     assert reduced in text and whole not in text
     assert "zone-reduced" in codes

@@ -9,6 +9,7 @@ from .arguments import arguments_in_registers
 from .bitgroups import groups_to_bits
 from .components import read_components
 from .composition import compositions
+from .continuouscorners import continuous_corners
 from .exactends import exact_ends
 from .filledplaces import filled_places
 from .framenumbers import frame_numbers
@@ -28,6 +29,7 @@ PASSES: tuple[Placed, ...] = (
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
     Placed(places_of_moves, "settings", behind="stand_first"),
     Placed(frame_numbers, "settings", behind="stand_first"),
+    Placed(continuous_corners, "settings", behind="stand_first"),
     Placed(compositions, "records", behind="drop_unread_parameters"),
     Placed(filled_places, "control", behind="fit_loops"),
     Placed(read_components, "control", behind="fit_loops"),
