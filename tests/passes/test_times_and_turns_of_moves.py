@@ -1,4 +1,4 @@
-"""Moves that say a time or a turning speed, in targets whose moves say that too."""
+"""Moves that say a time or a turning speed, in targets whose moves say that too; elsewhere the latter is refused."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ DEFAULT_GROUP = 1,*,*,*,*;
 )
 
 
-def _durations(target: str) -> list[float]:
+def _durations(target: str, program: str = PROGRAM) -> list[float]:
     diagnostics = Diagnostics()
-    read = read_sources([source_from_text("TIMED.LS", PROGRAM)], "tp", diagnostics)
+    read = read_sources([source_from_text("TIMED.LS", program)], "tp", diagnostics)
     translation = translate_program(read, target, ROBOT, None, diagnostics)
     assert not translation.losses
     back = read_sources([source_from_bytes(f.path, f.data) for f in translation.files], target, diagnostics)
@@ -51,7 +51,7 @@ def _durations(target: str) -> list[float]:
 
 @pytest.mark.parametrize("target", ["rapid", "vplus", "urscript", "tp", "rpl"])
 def test_a_time_is_kept(target: str) -> None:
-    _, before, timed, _, after = _durations(target)
+    _, before, timed, _, after = _durations(target, PROGRAM.replace("30deg/sec", "200mm/sec"))
     assert timed == pytest.approx(2.0, abs=0.05)
     assert before < 1.0 and after < 1.0
 
@@ -61,3 +61,11 @@ def test_a_turning_speed_is_kept(target: str) -> None:
     _, _, _, turned, after = _durations(target)
     assert turned == pytest.approx(2.0, abs=0.15)
     assert after < 1.0
+
+
+@pytest.mark.parametrize("target", ["vplus", "urscript", "val3"])
+def test_a_turning_speed_is_refused(target: str) -> None:
+    """At the usual speed of a path the tool would turn as fast as the arm can."""
+    read = read_sources([source_from_text("TIMED.LS", PROGRAM)], "tp", Diagnostics())
+    lost = translate_program(read, target, ROBOT, None, Diagnostics()).losses
+    assert [(item.code.name, item.origin.line) for item in lost] == [("turning-speed-lost", 8)]

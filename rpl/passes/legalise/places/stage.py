@@ -14,7 +14,6 @@ from rpl.passes.legalise.places.nextmove.movetimes import move_times
 from rpl.passes.legalise.places.nextmove.nextmove import settings_of_next_move
 from rpl.passes.legalise.places.nextmove.queuedwaits import queued_waits
 from rpl.passes.legalise.places.nextmove.scaledaccelerations import scaled_accelerations
-from rpl.passes.legalise.places.nextmove.turningtimes import turning_times
 from rpl.passes.legalise.places.partialplaces import partial_places
 from rpl.passes.legalise.places.postures.askedpostures import asked_postures
 from rpl.passes.legalise.places.postures.configurations import configurations
@@ -39,7 +38,6 @@ STAGE = Stage(
         scaled_accelerations,
         joined_moves,
         move_times,
-        turning_times,
         joint_speeds,
         seen_joints,
         near_joints,
