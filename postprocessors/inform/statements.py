@@ -12,6 +12,7 @@ from rpl.writing.anywhere import Anywhere
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.refusals import UNKNOWN_ROUTINE
 from rpl.writing.statements import CannotSayError, StatementPrinter
+from rpl.writing.target import LeftAlone
 
 from . import tables
 from .assignments import Assignments
@@ -55,8 +56,7 @@ _SLOW_MM_S = 100.0  # of a move by nothing
 
 class Printer(StatementPrinter[str]):
     """Prints the body of one job. `jobs`: routine, folded -> job; `tasks`: job -> sub task, of the whole program;
-    `moving`: routines, folded, that move the robot; `refused`: why a move (by identity) has actions that cannot be
-    said."""
+    `moving`: routines, folded, that move the robot; `left_alone`: why moves have actions that cannot be said."""
 
     guarded, dialect = GUARDED, "inform"
 
@@ -68,14 +68,14 @@ class Printer(StatementPrinter[str]):
         jobs: Mapping[str, str],
         tasks: dict[str, str],
         moving: frozenset[str],
-        refused: Mapping[int, str],
+        left_alone: LeftAlone,
         ledger: EmissionLedger,
         diagnostics: Diagnostics,
     ) -> None:
         super().__init__(ledger, diagnostics)
         self.assignments, self.motion, self.labels = assignments, motion, labels
         self.jobs, self.tasks, self.moving = jobs, tasks, moving
-        self.refused = refused
+        self.left_alone = left_alone
         self.may_move = Anywhere(self.moves)
 
     # ---- lines and remarks
@@ -317,7 +317,7 @@ class Printer(StatementPrinter[str]):
 
     def move(self, move: ir.Move) -> None:
         if move.triggers:
-            raise CannotSayError(self.refused.get(id(move), "its place is not known"), LOST)
+            raise CannotSayError(self.left_alone.why(move), LOST)
         self.put(self.motion.move(move, self.lines), move.origin)
         self.outcome(move)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -70,8 +70,8 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     if same is not None and not context.templates:
         return same
     ledger = EmissionLedger()
-    program, refused = cut_moves(program, context)
-    writer = _Writer(program, context, ledger, refused)
+    program = cut_moves(program, context)
+    writer = _Writer(program, context, ledger)
     jobs = [job for module in program.modules for job in writer.module(module)]
     writer.finish(jobs)
     ledger.check(program)
@@ -81,11 +81,8 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
 
 
 class _Writer:
-    def __init__(
-        self, program: ir.Program, context: WriteContext, ledger: EmissionLedger, refused: Mapping[int, str]
-    ) -> None:
+    def __init__(self, program: ir.Program, context: WriteContext, ledger: EmissionLedger) -> None:
         self.program, self.context, self.ledger = program, context, ledger
-        self.refused = refused
         self.diagnostics = context.diagnostics
         self.registers = Registers.of(program, (*context.register_names, *context.there.numbers))
         self.cell = Cell(self.registers, there=context.there)
@@ -235,8 +232,8 @@ class _Writer:
         motion.names = {name: int(name[1:]) for name in constants.points if name[:1] == "C" and name[1:].isdigit()}
         motion.corners = self.corners and not self.registers.jobs
         labels = Labels.of(routine.body)
-        tasks, moving, refused = self.tasks, self.moving, self.refused
-        return Printer(assignments, motion, labels, self.jobs, tasks, moving, refused, self.ledger, self.diagnostics)
+        tasks, moving, alone = self.tasks, self.moving, self.context.left_alone
+        return Printer(assignments, motion, labels, self.jobs, tasks, moving, alone, self.ledger, self.diagnostics)
 
     def lost_parts(self, routine: ir.Routine) -> None:
         """What a job has no place for. The passes before carry over what they can."""

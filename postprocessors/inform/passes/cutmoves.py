@@ -7,7 +7,7 @@ the move begins stands behind one that the program does not wait for (NWAIT), so
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
@@ -56,10 +56,10 @@ _SAME_RAD = 1e-4
 _CORNER_MM = tables.TAGS["CR"][0]
 
 
-def cut_moves(program: ir.Program, context: WriteContext) -> tuple[ir.Program, Mapping[int, str]]:
-    """The program, and why a move (by identity) keeps its actions: nothing can say where they happen."""
+def cut_moves(program: ir.Program, context: WriteContext) -> ir.Program:
+    """A move keeps its actions where nothing can say where they happen."""
     if not any(isinstance(node, ir.Move) and node.triggers for node in walk_for({"Move"}, *program.modules)):
-        return program, {}
+        return program
     constants = Constants.of(program, started_first(program))
     constants.names = {f"{bank}{number}": name for (bank, number), name in context.register_names.items()}
     known: dict[int, Constants] = {}
@@ -67,14 +67,14 @@ def cut_moves(program: ir.Program, context: WriteContext) -> tuple[ir.Program, M
     def of(routine: ir.Routine) -> Constants:
         return known.setdefault(id(routine), constants.routine(routine))
 
-    ends, refused = Ends(program, of), dict[int, str]()
+    ends = Ends(program, of)
 
     def work(_: ir.Module, routine: ir.Routine) -> ir.Routine:
-        cuts = _Cuts(context, of(routine), ends, refused)
+        cuts = _Cuts(context, of(routine), ends)
         body = cuts.body(routine.body)
         return routine if body is routine.body else replace(routine, body=body)
 
-    return edit_each(program, work), refused
+    return edit_each(program, work)
 
 
 @dataclass(slots=True)
@@ -93,7 +93,6 @@ class _Cuts:
     context: WriteContext
     constants: Constants
     ends: Ends
-    refused: dict[int, str]
     cornered: set[int] = field(default_factory=set)  # lines whose actions in a corner are reported
 
     # ---- bodies
@@ -132,7 +131,7 @@ class _Cuts:
         try:
             parts = self.parts(move, before)
         except CannotSayError as error:
-            self.refused[id(move)] = str(error)
+            self.context.left_alone.note(move, str(error))
             return (move,)
         done: list[ir.Statement] = []
         first = list(parts.begun)
