@@ -83,8 +83,8 @@ class Actions:
             case ir.WaitForMotion() if printer.stands() and printer.output.facts.foreign:
                 printer.comments_only(origin)
             case ir.Trigger():
-                printer.events.add(statement)
-                printer.comments_only(statement.origin)
+                why = printer.output.left_alone.why(statement)
+                raise CannotSayError(why or "an action on the path that no move follows")
             case ir.Pulse() | ir.SetAfter():
                 self.later(statement)
             case _:
@@ -380,42 +380,18 @@ class Actions:
             raise CannotSayError("a wait whose time limit raises an error")
         return f"WAIT {self.printer.condition(statement.condition, True)}"
 
-    def hand(self, body: ir.Body) -> tuple[str, int] | None:
-        """OPEN, CLOSE, RELAX: both solenoids of the hand switch when the next move begins."""
-        states: dict[int, bool] = {}
-        for statement in body[:2]:
-            match statement:
-                case ir.Trigger(
-                    reference="start",
-                    action=ir.Assign(
-                        target=ir.Signal(kind="digital_out", index=ir.IntLiteral(value=number)),
-                        value=ir.BoolLiteral(value=on),
-                    ),
-                    distance=None,
-                    delay=None,
-                ):
-                    states[number] = on
-        if set(states) != {tables.HAND_OPEN, tables.HAND_CLOSE}:
-            return None
-        if states[tables.HAND_OPEN]:
-            return "OPEN", 2
-        return ("CLOSE" if states[tables.HAND_CLOSE] else "RELAX"), 2
-
     def later(self, statement: ir.Pulse | ir.SetAfter) -> None:
-        """The signal changes while the program goes on: a program of its own waits and switches it then."""
-        signal, value = statement.signal, statement.value
+        """A computed output, or a computed time: `rpl.later` waits and switches it while the program goes on."""
+        places, output, value = self.expressions.places, self.printer.output, statement.value
+        signal = statement.signal
         if isinstance(signal, ir.Name):
-            signal = self.expressions.places.declared(signal.id) or signal
+            signal = places.declared(signal.id) or signal
         if not isinstance(signal, ir.Signal):
             raise CannotSayError("an output that follows later without a number")
-        if not isinstance(value, ir.BoolLiteral):
-            self.either_level(statement)
-            return
-        if self.expressions.places.is_group(signal) or signal.kind.endswith("_in") or signal.kind == "analog_out":
+        if places.is_group(signal) or signal.kind not in tables.SINGLE_OUTPUTS or not isinstance(value, ir.BoolLiteral):
             raise CannotSayError("anything but one digital output that follows later")
         pulse = isinstance(statement, ir.Pulse)
         delay = statement.duration if isinstance(statement, ir.Pulse) else statement.delay
-        places, output = self.expressions.places, self.printer.output
         signal = places.numbered(signal)
         task, time = output.helper_task(signal), self.expressions.measured(delay, "s")
         now, then = (places.number(signal, value.value == back) for back in (False, pulse))
@@ -423,24 +399,10 @@ class Actions:
             self.printer.line(f"SIGNAL {now}", statement.origin)
         else:
             self.printer.comments_only(statement.origin)
-        fixed = signal.index is not None and self.expressions.known(signal.index) is not None
-        if fixed and _is_number(time):
-            self.printer.line(f"EXECUTE {task} {output.later(then, time)}()")
-            return
-        if not fixed:
+        if signal.index is None or self.expressions.known(signal.index) is None:
             self.printer.diagnostics.report(ONE_PULSE, statement.origin, task=task)
         self.printer.line(f"EXECUTE {task} rpl.later({_by_value(then)}, {_by_value(time)})")
         self.expressions.notes.helpers.add("rpl.later")
-
-    def either_level(self, statement: ir.Pulse | ir.SetAfter) -> None:
-        """The level is calculated: both ways in a choice."""
-        printer, bare = self.printer, replace(statement.origin, comments=())
-        printer.line(f"IF {printer.condition(statement.value)} THEN", statement.origin)
-        for level in (True, False):
-            printer.depth += 1
-            self.later(replace(statement, value=ir.BoolLiteral(level), origin=bare))
-            printer.depth -= 1
-            printer.line("ELSE" if level else "END")
 
     # ---- the operator
 
@@ -491,10 +453,6 @@ def listed(target: ir.Expression, value: ir.Aggregate, type: ir.ArrayType) -> li
 
     fill((), value)
     return found
-
-
-def _is_number(text: str) -> bool:
-    return text.lstrip("-").replace(".", "", 1).isdigit()
 
 
 def _by_value(number: str) -> str:

@@ -17,6 +17,7 @@ from rpl.writing.precedence import ATOM, ExpressionPrinter, Printed
 from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
+from .units import in_unit, scaled
 
 
 @dataclass(slots=True)
@@ -90,28 +91,7 @@ class Expressions:
 
     def measured(self, value: ir.Expression, unit: str) -> str:
         """A quantity in base units or `unit` as a plain number."""
-        return self.shortened(self.in_unit(value, unit), tables.LONGEST_LINE - 16)
-
-    def in_unit(self, value: ir.Expression, unit: str) -> ir.Expression:
-        match value:
-            case ir.Quantity(value=inner, unit=own):
-                return inner if own == unit else self.scaled(inner, ir.UNITS[own] / ir.UNITS[unit])
-        return self.scaled(value, 1.0 / ir.UNITS[unit])
-
-    def scaled(self, value: ir.Expression, factor: float) -> ir.Expression:
-        """`value * factor`, worked out when it is written as a number."""
-        if abs(factor - 1.0) < 1e-14:
-            return value
-        match value:
-            case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
-                return ir.RealLiteral(float(f"{number * factor:.12g}"))
-            case ir.Unary(op="-", operand=ir.RealLiteral() | ir.IntLiteral() as one):
-                return ir.Unary("-", self.scaled(one, factor))
-            case ir.Convert(how="real", operand=operand):
-                return self.scaled(operand, factor)
-            case ir.Binary(op="*", left=left, right=ir.RealLiteral() | ir.IntLiteral() as one):
-                return self.scaled(left, one.value * factor)
-        return ir.Binary("*", value, ir.RealLiteral(float(f"{factor:.12g}")))
+        return self.shortened(in_unit(value, unit), tables.LONGEST_LINE - 16)
 
     # ---- leaves
 
@@ -136,9 +116,9 @@ class Expressions:
             case ir.Builtin():
                 return self.builtin(expression)
             case ir.Quantity(value=value, unit=unit):
-                return printer.printed(self.scaled(value, ir.UNITS[unit]))
+                return printer.printed(scaled(value, ir.UNITS[unit]))
             case ir.Magnitude(value=value, unit=unit):
-                return printer.printed(self.scaled(value, 1.0 / ir.UNITS[unit]))
+                return printer.printed(scaled(value, 1.0 / ir.UNITS[unit]))
             case ir.Convert():
                 return self.converted(expression)
             case ir.VendorValue(dialect="vplus", text=text):

@@ -18,26 +18,13 @@ from rpl.writing.statements import CannotSayError
 
 from . import settings, spelling, tables
 from .expressions import Expressions
-from .facts.corners import Corners, size_of
+from .facts.corners import size_of
+from .facts.moves import lacking
+from .units import in_unit, scaled
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
 
-CORNER = code(
-    "vplus-corner",
-    Severity.WARNING,
-    "V+ takes corners by its own measure; the size given here is not carried over",
-)
-STOPPED = code(
-    "vplus-corner-stopped",
-    Severity.WARNING,
-    "the robot stops at this corner: V+ would execute the next step when the move begins",
-)
-LOOSE = code(
-    "vplus-corner-may-stop",
-    Severity.WARNING,
-    "the robot stops at this corner where no move follows at once: V+ would execute the next step when the move begins",
-)
 LEFT_OUT = code("vplus-left-out", Severity.WARNING, "V+ has no place for {what} at a move; it is left out")
 ARC = code("vplus-arc", Severity.WARNING, "only eV+ controllers have MOVEC")
 NO_ARM = code(
@@ -64,7 +51,6 @@ class MotionFacts:
     diagnostics: Diagnostics
     robot: RobotModel | None
     foreign: bool
-    corners: Corners
     usual: float | None = None
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
@@ -104,18 +90,9 @@ class Motion:
         return settings.setting(place.name, value, False, self.expressions)
 
     def refuse(self, move: ir.Move) -> None:
-        for what, found in (
-            ("a circle by its angle", move.swept),
-            ("a tool of its own", move.tool),
-            ("a load of its own", move.load),
-            ("an orientation rule of its own", move.orientation not in (None, "variable")),
-            ("actions on its path", move.triggers),
-            ("a search", move.search),
-            ("a motion group", move.group != 1),
-            ("spline blocks", move.motion_class == "spline"),
-        ):
-            if found:
-                raise CannotSayError(f"a move with {what}")
+        lost = lacking(move)
+        if lost:
+            raise CannotSayError(f"a move with {lost}")
 
     # ---- where to
 
@@ -315,48 +292,21 @@ class Motion:
             limit = float(min(self.facts.robot.speeds))
         else:
             self.facts.once(NO_ARM, origin, limit=limit)
-        return self.expressions.scaled(self.expressions.in_unit(speed.axis, "deg/s"), 100.0 / limit)
+        return scaled(in_unit(speed.axis, "deg/s"), 100.0 / limit)
 
     def rounded(self, value: ir.Expression) -> str:
         known = self.expressions.known(value) if not isinstance(value, ir.Name) else None
         return self.expressions.measured(value, "mm/s") if known is None else spelling.number(known, 4)
 
-    def is_stop(self, blend: ir.Blend) -> bool:
+    def is_stop(self, blend: ir.Blend | None) -> bool:
         """Is it an exact stop, or a corner of no size?"""
-        size = size_of(blend)
-        return isinstance(blend, ir.BlendStop) or (size is not None and self.zero(size))
+        size = None if blend is None else size_of(blend)
+        return blend is None or isinstance(blend, ir.BlendStop) or (size is not None and self.zero(size))
 
     def behind(self, move: ir.Move) -> list[str]:
         """BREAK where the robot stops at the target."""
-        if not self.facts.foreign:
-            return ["BREAK"] if isinstance(move.blend, ir.BlendStop) else []
-        if move.blend is None or self.is_stop(move.blend):
-            return ["BREAK"]
-        if id(move) in self.facts.corners.stopped:
-            return self.stopped(move)
-        if id(move) in self.facts.corners.loose:
-            self.facts.once(LOOSE, move.origin)
-        if not _as_here(move.blend):
-            self.facts.once(CORNER, move.origin)
-        return self.stopped_if(move.blend)
-
-    def stopped_if(self, blend: ir.Blend) -> list[str]:
-        """A corner whose size the run decides is a stop where it has none."""
-        size = size_of(blend)
-        if not isinstance(blend, ir.BlendDistance) or not isinstance(size, ir.Name | ir.System | ir.Index | ir.Field):
-            return []
-        if self.expressions.known(size) is not None:
-            return []
-        return [f"IF {self.expressions.text(size)} <= 0 THEN", "    BREAK", "END"]
-
-    def stopped(self, move: ir.Move) -> list[str]:
-        """A corner becomes a stop."""
-        self.facts.diagnostics.report(STOPPED, move.origin)
-        return ["BREAK"]
-
-
-def _as_here(blend: ir.Blend) -> bool:
-    return isinstance(blend, ir.BlendSpeed) and blend.percent == ir.IntLiteral(100)
+        stops = self.is_stop(move.blend) if self.facts.foreign else isinstance(move.blend, ir.BlendStop)
+        return ["BREAK"] if stops else []
 
 
 def _negated(value: ir.Expression) -> ir.Expression:

@@ -13,10 +13,12 @@ from rpl.diagnostics import Diagnostics
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
 from rpl.writing.statements import CannotSayError
+from rpl.writing.target import LeftAlone
 from rpl.writing.templates import Macros
 
 from . import tables
 from .expressions import Expressions
+from .facts.tasks import is_later
 from .motion import Motion, MotionFacts
 from .reactions import Reactions
 
@@ -31,32 +33,19 @@ class Output:
     reactions: Reactions
     taken: set[str]
     say: Macros
+    left_alone: LeftAlone
     tasks: dict[str, int] = field(default_factory=dict)
     helpers: set[str] = field(default_factory=set)
-    delayed: dict[tuple[str, str], str] = field(default_factory=dict)
     pulses: list[ir.Signal] = field(default_factory=list)
-
-    def later(self, number: str, seconds: str) -> str:
-        """The program that switches a signal after a time."""
-        key = number, seconds
-        return self.delayed.setdefault(key, f"rpl.later.{len(self.delayed) + 1}")
 
     def helper_task(self, signal: ir.Signal) -> int:
         """The task that ends the pulses of a signal."""
         if signal not in self.pulses:
             self.pulses.append(signal)
         number = tables.TASKS - self.pulses.index(signal)
-        if number <= len(self.tasks):
+        if number <= sum(not is_later(name) for name in self.tasks):
             raise CannotSayError(f"pulses need tasks of their own, and there are {tables.TASKS}")
         return number
-
-
-class Triggers(Protocol):
-    """Keeps what happens on the path of the next move."""
-
-    def add(self, trigger: ir.Trigger) -> None:
-        """One more."""
-        ...
 
 
 class BodyPrinter(Protocol):
@@ -68,11 +57,6 @@ class BodyPrinter(Protocol):
     motion: Motion
     depth: int
 
-    @property
-    def events(self) -> Triggers:
-        """What happens on the path."""
-        ...
-
     def line(self, text: str, origin: Origin | None = None, shown: str = "") -> None:
         """One step (`shown`: as a macro of its own says it), with the comments that belong to its statement."""
         ...
@@ -83,10 +67,6 @@ class BodyPrinter(Protocol):
 
     def comments_only_before(self, origin: Origin) -> None:
         """Those of its remarks that stand in front of it."""
-        ...
-
-    def captured(self, statement: ir.Statement) -> list[str]:
-        """The lines of a simple statement, to stand elsewhere."""
         ...
 
     def stands(self) -> bool:

@@ -115,9 +115,7 @@ class Places:
         known = self.expressions.known(signal.index)
         named = any(isinstance(one, ir.Name) for one in walk(signal.index))
         if known is not None and not named:
-            first, last = tables.ROBOT_SIGNALS
-            robot = kind == "digital_out" and first <= known <= last
-            if not (1 <= known <= tables.MOST_SIGNALS or robot):
+            if not tables.is_signal(kind, known):
                 raise self.refuse(f"there is no signal {known:g} of this kind, only 1 to {tables.MOST_SIGNALS}")
             return spelling.number(-(known + offset) if negative else known + offset)
         index = plus(signal.index, offset)

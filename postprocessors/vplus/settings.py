@@ -13,6 +13,7 @@ from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 from .expressions import Expressions
+from .units import scaled
 
 _SPEEDS = ("joint_speed", "path_speed", "swivel_speed")
 Setting = ir.Assign | ir.SetForNextMove
@@ -54,7 +55,7 @@ def _share(value: ir.Expression, full: float, expressions: Expressions) -> str:
     known = expressions.known(value)
     if known is not None:
         return spelling.number(known * 100.0 / full, 9)
-    return expressions.text(expressions.scaled(value, 100.0 / full))
+    return expressions.text(scaled(value, 100.0 / full))
 
 
 def acceleration(body: Sequence[ir.Statement], expressions: Expressions) -> tuple[str, int] | None:

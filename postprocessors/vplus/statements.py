@@ -19,10 +19,10 @@ from . import settings, spelling, tables
 from .actions import Actions
 from .decoding import decoded
 from .expressions import Expressions, Notes
-from .facts.corners import deferred
+from .facts.moves import hand
+from .facts.tasks import is_later
 from .motion import Motion
 from .output import Output
-from .pathevents import PathEvents
 
 GUARDED = code(
     "vplus-guarded-stop",
@@ -51,9 +51,6 @@ class Printer(StatementPrinter[str]):
         self.motion = Motion(self.expressions, output.facts)
         self.may_move = Anywhere(lambda node: isinstance(node, ir.Move | ir.CallRoutine))
         self.actions = Actions(self)
-        self.events = PathEvents(self)
-        self.elsewhere: list[str] | None = None  # where the lines of the statement go that is printed next
-        self.rest: ir.Body = ()  # what follows in the body that is printed
         self.owed = False  # must the robot stand before it moves again, although the program goes on?
 
     # ---- lines and comments
@@ -111,32 +108,15 @@ class Printer(StatementPrinter[str]):
         begun = inner and self.owed and not any(map(_needs_standing, statements_in(body)))
         at = 0
         while at < len(body):
-            self.rest = body[at + 1 :]
-            if id(body[at]) in self.output.facts.corners.broken and not self.stands():
-                self.line("BREAK")
             if self.owed and _needs_standing(body[at]):
                 self.line("BREAK")
-            at += self.joined(body[at:]) or self.one(body[at])
+            joined = self.joined(body[at:])
+            if not joined:
+                self.statement(body[at])
+            at += joined or 1
         if self.owed and not begun:  # a move that began in front of these steps goes on behind them
             self.line("BREAK")
         self.depth -= inner
-
-    def one(self, statement: ir.Statement) -> int:
-        if id(statement) in self.output.facts.corners.deferred:
-            self.statement(statement, self.events.deferred)
-        else:
-            self.statement(statement)
-        return 1
-
-    def captured(self, statement: ir.Statement) -> list[str]:
-        """The lines of a simple statement, to stand elsewhere."""
-        kept = len(self.lines)
-        self.notes.parts.clear()
-        self.actions.write(statement)
-        self.notes.parts.clear()
-        found = [line.strip() for line in self.lines[kept:]]
-        del self.lines[kept:]
-        return found
 
     def joined(self, body: ir.Body) -> int:
         """Statements that are one step of V+. Counts them."""
@@ -167,7 +147,8 @@ class Printer(StatementPrinter[str]):
                 if known is not None and known[0] in ("tool", "base") and body[1].origin == wait.origin:
                     return settings.setting(known[0], known[1], known[2], self.expressions)[0], 2
             case ir.Trigger():
-                return self.actions.hand(body)
+                word = hand(body)
+                return (word, 2) if word else None
             case ir.Assign(target=ir.Field()):
                 return self.actions.components(body)
             case ir.Assign():
@@ -188,9 +169,9 @@ class Printer(StatementPrinter[str]):
                 return f"{text(kept)} = TAS({text(place)}, {text(value)})", 4
         return None
 
-    def statement(self, statement: ir.Statement, elsewhere: list[str] | None = None) -> None:
-        """One statement, or its guarded stop. `elsewhere`: its lines stand later."""
-        known, self.elsewhere = len(self.notes.changed_texts), elsewhere
+    def statement(self, statement: ir.Statement) -> None:
+        """One statement, or its guarded stop."""
+        known = len(self.notes.changed_texts)
         super().statement(statement)
         for text in self.notes.changed_texts[known:]:
             self.diagnostics.report(TEXT_CHANGED, statement.origin, text=text)
@@ -200,10 +181,6 @@ class Printer(StatementPrinter[str]):
         self.notes.steps = True
 
     def written(self, statement: ir.Statement) -> None:
-        elsewhere, self.elsewhere = self.elsewhere, None
-        if elsewhere is not None:
-            elsewhere += self.captured(statement)
-            return
         match statement:
             case ir.Nothing(origin=origin):
                 self.comments_only(origin)
@@ -238,26 +215,16 @@ class Printer(StatementPrinter[str]):
             self.motion.forget()
 
     def move(self, move: ir.Move) -> None:
-        rest = self.rest
-        try:
-            before, step, behind = self.motion.move(move)
-            around = self.events.of(move, bool(behind), deferred(rest) is not None)
-        except CannotSayError as error:
-            self.guard(move, str(error))
-            self.more(*self.events.pending())
-            return
-        if around.last and not behind:
-            behind = self.motion.stopped(move)
+        before, step, behind = self.motion.move(move)
         inner, self.notes.before = self.notes.before, []
         self.comments_only_before(move.origin)
-        self.more(*inner, *before, *around.before)
+        self.more(*inner, *before)
         word, _, places = step.partition(" ")
         self.line(step, _behind_only(move.origin), self.say("move", word=word, places=places))
-        if move.concurrent and not around.last and self.output.facts.foreign:
-            self.more(*around.behind)
+        if move.concurrent and self.output.facts.foreign:
             self.owed = bool(behind)
-            return
-        self.more(*around.behind, *behind, *around.last)
+        else:
+            self.more(*behind)
 
     def comments_only_before(self, origin: Origin) -> None:
         for comment in origin.comments:
@@ -353,7 +320,9 @@ class Printer(StatementPrinter[str]):
 
 def _needs_standing(statement: ir.Statement) -> bool:
     """Does it move the robot, or go where nobody knows?"""
-    if isinstance(statement, ir.Label | ir.Goto | ir.Return | ir.ExitLoop | ir.NextPass | ir.TaskControl):
+    if isinstance(statement, ir.TaskControl):
+        return not is_later(statement.task)
+    if isinstance(statement, ir.Label | ir.Goto | ir.Return | ir.ExitLoop | ir.NextPass):
         return True
     return any(isinstance(node, ir.Move | ir.CallRoutine) for node in walk((statement,)))
 

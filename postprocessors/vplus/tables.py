@@ -116,6 +116,8 @@ SIGNALS = {kind: int(number) for kind, number in _WORDS.numbers("signals").items
 GROUPS = {"group_out": "digital_out", "group_in": "digital_in"}
 MOST_SIGNALS = int(_NUMBERS["most_signals"])
 ROBOT_SIGNALS = (int(_NUMBERS["first_of_robot"]), int(_NUMBERS["last_of_robot"]))
+SINGLE_OUTPUTS = frozenset(("digital_out", "flag"))
+LATER = "rpl.later."  # and a number: programs that switch one output after a time
 MOST_BITS = 32
 HAND_OPEN, HAND_CLOSE = int(_NUMBERS["hand_open"]), int(_NUMBERS["hand_close"])
 FULL_PATH_SPEED_MM_S = _NUMBERS["full_path_speed"]
@@ -127,3 +129,9 @@ AXES = ("j1", "j2", "j3", "j4", "j5", "j6")
 EXTERNAL = ("e1", "e2", "e3", "e4", "e5", "e6")
 PLACES = ("x", "y", "z")
 UNUSED = 9e8  # an external axis that does not exist stands at 9E9
+
+
+def is_signal(kind: str, number: float) -> bool:
+    """Is there a signal of this kind with this number?"""
+    first, last = ROBOT_SIGNALS
+    return 1 <= number <= MOST_SIGNALS or (kind == "digital_out" and first <= number <= last)

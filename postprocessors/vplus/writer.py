@@ -17,11 +17,10 @@ from rpl.writing.templates import macros_of
 
 from . import spelling, tables
 from .data import declared, stored, values
-from .facts.corners import Corners
 from .facts.interrupts import Interrupts
 from .facts.names import names_of, starts
 from .facts.routines import filled, labels_of
-from .facts.tasks import tasks_of
+from .facts.tasks import later_signals, tasks_of
 from .facts.usualspeed import usual_speed
 from .helpers import HELPERS
 from .motion import MotionFacts
@@ -59,8 +58,7 @@ class _File:
         self.program = program
         self.scopes = ProgramScope(self.program)
         self.ledger, self.diagnostics = EmissionLedger(), context.diagnostics
-        corners = Corners.of(self.program) if context.foreign else Corners(self.program)
-        facts = MotionFacts(context.diagnostics, context.robot, context.foreign, corners)
+        facts = MotionFacts(context.diagnostics, context.robot, context.foreign)
         self.starting = starts(self.program)
         if context.foreign:
             facts.usual = usual_speed(self.program)
@@ -71,7 +69,9 @@ class _File:
             Reactions(Interrupts.of(self.program)),
             names_of(self.program),
             macros_of(__package__, context.templates),
+            context.left_alone,
             tasks_of(self.program),
+            pulses=list(dict.fromkeys(later_signals(self.program).values())),
         )
         self.output.reactions.task_of = self.output.helper_task
         self.background = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
@@ -88,15 +88,14 @@ class _File:
                 self.data(declaration, self.scopes.module(module), remarks)
         programs = [self.routine(module, routine) for module in self.program.modules for routine in module.routines]
         programs.sort(key=lambda one: not one[1])
+        later = [one for one in programs if one[0].head.startswith(f".PROGRAM {tables.LATER}")]
+        programs = [one for one in programs if one not in later]
         indent = self.output.say("first")
         programs += [
             (ProgramText(head, tuple(indent + step for step in steps)), False)
             for head, *steps, _ in (HELPERS.texts[name] for name in sorted(HELPERS.needed(self.output.helpers)))
         ]
-        programs += [
-            (ProgramText(f".PROGRAM {name}()", (f"{indent}WAIT.EVENT , {seconds}", f"{indent}SIGNAL {number}")), False)
-            for (number, seconds), name in self.output.delayed.items()
-        ]
+        programs += later
         programs += [
             (ProgramText(f".PROGRAM {watch.name}()", tuple(indent + step for step in watch.steps())), False)
             for watch in self.output.reactions.watches.values()

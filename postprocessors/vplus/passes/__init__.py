@@ -7,7 +7,9 @@ from rpl.passes.legalise.stages import Placed
 
 from .brakedmoves import braked_moves
 from .broughtvalues import brought_values
+from .lateroutputs import later_outputs
 from .onenamespace import one_namespace
+from .pathsteps import path_steps
 from .reactionsearches import reaction_searches
 
 PASSES: tuple[Placed, ...] = (
@@ -15,4 +17,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(braked_moves, "interrupts", behind="interrupts"),
     Placed(brought_values, "control", behind="functions_to_procedures"),
 )
-LAST = (one_namespace,)
+LAST = (one_namespace, path_steps, later_outputs)
