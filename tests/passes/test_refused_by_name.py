@@ -98,6 +98,16 @@ PAYLOAD = """def main():
   end
 end
 """
+IN_ORDER = """MODULE m
+  VAR string s:="abc";
+  PROC main()
+    VAR bool b;
+    IF StrOrder(s,"b",STR_UPPER) SetDO do1,1;
+    b:=StrOrder(s,"b","cba");
+    IF b SetDO do2,1;
+  ENDPROC
+ENDMODULE
+"""
 JOINTS = """MODULE k
   CONST robtarget p:=[[500,150,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   PROC main()
@@ -165,6 +175,7 @@ END PROCEDURE
             "krl tp urscript vplus inform",
         ),
         (READ_BACK, "krl", KUKA, [("vplus-guarded-stop", 4)], "vplus"),
+        (IN_ORDER, "rapid", ABB, [("text-order-lost", 5), ("text-order-lost", 6)], "krl tp urscript vplus inform"),
         (JOINTS, "rapid", ABB, [("kinematics-lost", 5)], "vplus"),
         (ALL_ERRORS, "vplus", VIPER, [("error-routine-lost", 2)], "krl rapid tp urscript inform"),
         (RAISED, "rpl", KUKA, [("error-routine-lost", 4)], "vplus"),

@@ -140,7 +140,6 @@ CASES = [
         ),
         ("rpl_bytes_number(rpl_number_bytes({0}, 4), 1, 4) = {0}", N),
         ("rpl_number_bytes({0}, 4) = number_bytes({0}, 4)", N),
-        ('rpl_in_order({0}, {1}, "cba") = text_order({0}, {1}, "cba")', LETTERS, LETTERS),
         ("scans({0}, {1})", st.integers(-999, 999).map(str), st.sampled_from(('""', '" "', '"x"', '" 1"'))),
     ),
     *_rows(

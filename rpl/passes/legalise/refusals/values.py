@@ -43,6 +43,13 @@ COMPARED = code(
     "compare the components that matter, places by how far they are apart",
     stops=True,
 )
+ORDER = code(
+    "text-order-lost",
+    Severity.LOSS,
+    "the target does not compare texts in an order of characters that the program gives",
+    "compare numbers in place of the texts, or let the program that sends them say their order",
+    stops=True,
+)
 _IN_USE = {"current_tool": "tool", "current_frame": "work object"}
 _LOAD = ir.System("load")
 
@@ -116,6 +123,7 @@ def _record(side: ir.Expression, asked: Asked) -> str:
 
 VALUES = (
     Refusal("random numbers", RANDOM, get_args(ir.Statement), _lacking("random")),
+    Refusal("texts in a given order of characters", ORDER, get_args(ir.Statement), _lacking("text_order")),
     Refusal("the tool or work object in use as a record", USED, (ir.Assign,), _in_use, left=False),
     Refusal("the payload in use", PAYLOAD, get_args(ir.Statement), _payload),
     Refusal(

@@ -1,5 +1,5 @@
-"""Neutral functions that a target lacks, as functions of the program in terms of others: texts in a given order, poses
-turned to the axes, the middle of an arc, numbers rounded to a computed count of decimals.
+"""Neutral functions that a target lacks, as functions of the program in terms of others: poses turned to the axes, the
+middle of an arc, numbers rounded to a computed count of decimals.
 
 Runs before the passes that find words for products of poses, rotation vectors and texts.
 """
@@ -18,7 +18,6 @@ from rpl.passes.legalise.stages import legalising
 
 _ROUNDED = {"round": "rpl_round", "trunc": "rpl_cut"}
 _HELPERS = {
-    "text_order": "rpl_in_order",
     "aligned": "rpl_aligned",
     "arc_middle": "rpl_arc_middle",
 }
@@ -43,8 +42,6 @@ class _Functions(Rewriter):
         match node:
             case ir.Builtin(function=("round" | "trunc"), arguments=(_, decimals)):
                 return TextRule.COMPUTED_DECIMALS not in can.texts.rules and not isinstance(decimals, ir.IntLiteral)
-            case ir.Builtin(function="text_order"):
-                return node.function not in can.functions
             case ir.Builtin(function=("aligned" | "arc_middle")):
                 return node.function not in can.functions
         return False
@@ -55,8 +52,6 @@ class _Functions(Rewriter):
             return done
         if done.function in _ROUNDED:
             return self.helpers.call(_ROUNDED[done.function], *done.arguments)
-        if done.function == "text_order":
-            return self.helpers.call(_HELPERS[done.function], *done.arguments)
         types = [self.type_of(one) for one in expression.arguments]
         poses = [
             ir.Builtin("pose_of", (one,)) if isinstance(type, ir.TargetType) else one
