@@ -52,6 +52,7 @@ ASSIGNMENTS = [
     ("$timer[3] = 0", "TIMER[3]=RESET"),
     ("$timer_stopped[3] = TRUE", "TIMER[3]=STOP"),
     ("$override = 50", "OVERRIDE=50%"),
+    ("$override = R[1]", "OVERRIDE=R[1]"),  # a register has no unit: counted, 127 of 127 public lines
 ]
 
 
