@@ -16,7 +16,7 @@ from rpl.emulator.rotations import rotation_angle
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_each
-from rpl.passes.rewrite import rewrite_parts, same
+from rpl.passes.rewrite import rewrite_bodies, same
 from rpl.source import Origin
 from rpl.writing.statements import CannotSayError
 from rpl.writing.target import WriteContext
@@ -119,7 +119,7 @@ class _Cuts:
                 done.append(_arrived(going))
                 going = None
             if blocks(statement):
-                statement = rewrite_parts(statement, lambda value: value, self.body)
+                statement = rewrite_bodies(statement, self.body)
             done.append(statement)
         if going is not None:
             done.append(_arrived(going))

@@ -6,13 +6,11 @@ wait for then.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from rpl import ir
 from rpl.ir.walk import walk
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_all
-from rpl.passes.rewrite import rewrite_bodies, same
+from rpl.passes.legalise.rewriting.exactends import ending_exactly
 from rpl.writing.target import WriteContext
 
 # Routines that programs bring along and that only calculate.
@@ -21,18 +19,7 @@ _CALCULATING = frozenset(("rpl_length", "rpl_min", "rpl_max", "rpl_trunc", "rpl_
 
 def exact_ends(program: ir.Program, context: WriteContext) -> ir.Program:
     """The wait stays; behind an exact end it has nothing to wait for."""
-    return edit_all(program, _body)
-
-
-def _body(body: ir.Body) -> ir.Body:
-    done = [rewrite_bodies(one, _body) if blocks(one) else one for one in body]
-    awaited = False  # going back from the end: does the program wait for the robot here?
-    for at in range(len(body) - 1, -1, -1):
-        statement = done[at]
-        if awaited and isinstance(statement, ir.Move):
-            done[at] = replace(statement, blend=ir.BlendStop())
-        awaited = isinstance(statement, ir.WaitForMotion) or (awaited and _calculates(body[at]))
-    return body if same(done, body) else tuple(done)
+    return edit_all(program, lambda body: ending_exactly(body, between=_calculates))
 
 
 def _calculates(statement: ir.Statement) -> bool:

@@ -6,11 +6,10 @@ otherwise (V+ BREAK). A wait of no time behind a move with `fine` is what other 
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.exactends import ending_exactly
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_bodies
 
@@ -22,7 +21,11 @@ _IN_PLACE = (ir.Assign, ir.Wait, ir.WaitUntil, ir.Nothing, ir.Message, ir.Pulse)
 @legalising(sees=("WaitForMotion", "Wait"))
 def fine_stops(program: ir.Program, context: Context) -> ir.Program:
     """Only right behind the move; what is attached to the corner needs it."""
-    return edit_all(program, _body)
+    return edit_all(program, lambda body: _body(ending_exactly(body, between=_nothing, may_stop=_can_stop)))
+
+
+def _nothing(statement: ir.Statement) -> bool:
+    return False
 
 
 def _body(body: ir.Body) -> ir.Body:
@@ -39,7 +42,6 @@ def _body(body: ir.Body) -> ir.Body:
             done.append(statement)
             continue
         if isinstance(statement, ir.WaitForMotion) and isinstance(last, ir.Move) and _can_stop(last):
-            done[-1] = replace(last, blend=ir.BlendStop())
             if statement.origin.comments:
                 done.append(ir.Nothing(origin=statement.origin))
         else:

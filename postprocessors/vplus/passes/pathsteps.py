@@ -16,7 +16,7 @@ from rpl.diagnostics import Code, Severity, code
 from rpl.passes.fold import lasting_number
 from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.rewriting.editing import edit_each
-from rpl.passes.rewrite import rewrite_parts, same
+from rpl.passes.rewrite import rewrite_bodies, same
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import Origin
 from rpl.writing.anywhere import Anywhere
@@ -176,7 +176,7 @@ class _Steps:
                     if blocks(statement):
                         if self.shared.may_move.within(statement):
                             self.waiting = []  # which move is the next one depends on the run
-                        statement = rewrite_parts(statement, lambda value: value, self.body)
+                        statement = rewrite_bodies(statement, self.body)
                     done.append(statement)
         self.waiting = outer
         return body if same(done, body) else tuple(done)
