@@ -73,7 +73,6 @@ CAPABILITIES = Capabilities(
         rules=frozenset((PlaceRule.IN_BASE, PlaceRule.TURNS)),
     ),
     motion=Motion(
-        concurrent=True,
         turned_ways=frozenset(),
         search_results=frozenset((SearchResult.FOUND, SearchResult.HIT)),
         paths=frozenset((PathRule.FIXED_ARCS, PathRule.STRAIGHT_DISTANCES, PathRule.TO_JOINTS)),

@@ -56,7 +56,7 @@ def switched_on(result: RunResult) -> set[str]:
     return found
 
 
-@pytest.mark.parametrize("target", ["rapid", "urscript", "vplus", "inform", "rpl"])
+@pytest.mark.parametrize("target", ["rapid", "vplus", "inform", "rpl"])
 @pytest.mark.parametrize(("limits", "met"), LIMITS.items())
 def test_a_place_seen_beside_the_moves(target: str, limits: tuple[int, int], met: set[str]) -> None:
     """M: the tool is the one of the last point that the job itself has, else the first one."""

@@ -1,6 +1,6 @@
-"""Corners in front of a move that a task of its own drives, for targets where searches and moves that the program does
-not wait for are such tasks (URScript): two tasks cannot drive the robot through one corner, the second would end with
-an error. The robot stops there first.
+"""Corners in front of a move that a task of its own drives, for targets where searches are such tasks
+(URScript): two tasks cannot drive the robot through one corner, the second would end with an error. The robot stops
+there first.
 """
 
 from __future__ import annotations

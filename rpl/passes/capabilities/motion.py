@@ -81,6 +81,6 @@ class Motion:
     triggers: frozenset[TriggerRule] = frozenset((TriggerRule.LATE, TriggerRule.ANY_VARIABLE))
 
     concurrent: bool = False
-    """A move may say that the program goes on while it is driven, or a task that watches drives it (Watched.ALL)."""
+    """A move may say that the program goes on while it is driven."""
 
     search_results: frozenset[SearchResult] = frozenset((SearchResult.FOUND,))

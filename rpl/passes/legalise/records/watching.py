@@ -1,4 +1,4 @@
-"""Searches, interrupts and moves that the program does not wait for, for targets that have tasks, but none of these.
+"""Searches and interrupts, for targets that have tasks, but none of these.
 
 An interrupt whose action takes no time and leaves the robot alone is a task of its own that waits for the condition and
 acts in a critical section, where the target has these. For one that stops the robot for good, and for one that takes
@@ -22,7 +22,6 @@ from rpl.passes.legalise.facts.watches import MOTION, Watch
 from rpl.passes.legalise.interrupts.endedmoves import EndedMoves, goes_on, unending
 from rpl.passes.legalise.interrupts.searchtasks import SearchTasks
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.records.concurrentmoves import ConcurrentMoves, has_concurrent
 from rpl.passes.legalise.rewriting.beside import Beside, closure, local_names, tidy
 from rpl.passes.legalise.rewriting.editing import Editor, edit_bodies, edit_routines, expansion, map_body
 from rpl.passes.legalise.rewriting.jumps import inside, left_with
@@ -68,7 +67,7 @@ _ALONE = (ir.Wait, ir.WaitUntil, ir.WaitForMotion, ir.Dialog, ir.Raise, ir.Halt,
         context.capabilities.interrupts.watched is not Watched.ALL
         and (context.capabilities.interrupts.watched is not Watched.INTERRUPTS)
     ),
-    sees=("Search", "DeclareInterrupt", "concurrent move"),
+    sees=("Search", "DeclareInterrupt"),
 )
 def watching(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets that are asked for this."""
@@ -76,8 +75,7 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
     nodes = list(walk_for({"Search", "DeclareInterrupt"}, *program.modules))
     searches = can.interrupts.watched is Watched.ALL and any(isinstance(node, ir.Search) for node in nodes)
     interrupts = any(isinstance(node, ir.DeclareInterrupt) for node in nodes)
-    concurrent = can.interrupts.watched is Watched.ALL and has_concurrent(program)
-    if not searches and not interrupts and not concurrent:
+    if not searches and not interrupts:
         return program
     beside = Beside(program, context)
     movers = Movers(beside, ProgramScope(program))
@@ -97,8 +95,6 @@ def watching(program: ir.Program, context: Context) -> ir.Program:
             done = one.routine(editor, routine, done)
         if can.interrupts.watched is Watched.ALL and (searches or serving):
             done = edit_bodies(done, SearchTasks(editor, routine, beside, movers).body)
-        if concurrent and not serving:
-            done = edit_bodies(done, ConcurrentMoves(editor, routine, beside, movers).body)
         return edit_bodies(done, watches.body) if interrupts else done
 
     done = edit_routines(program, context, work)
