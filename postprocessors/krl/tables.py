@@ -5,7 +5,7 @@ from __future__ import annotations
 from rpl.ir import BoolType, IntType, RealType
 from rpl.registry import words
 from rpl.words import spelled
-from rpl.writing.precedence import Operator, OperatorTable
+from rpl.writing.precedence import RELATIONS, Operator, OperatorTable
 
 _WORDS = words("krl")
 RESERVED = frozenset(_WORDS.listed("reserved"))
@@ -40,7 +40,13 @@ OPERATORS = OperatorTable(
         "not": Operator("NOT", _SIGN),
         "bnot": Operator("B_NOT", _SIGN),
     },
-    mixed=(frozenset(_BINARY),),
+    # Relations bind less tightly than AND and OR, which few expect; products of places are no products of numbers.
+    mixed=(
+        RELATIONS | {"or", "bor", "xor", "bxor", "and", "band"},
+        frozenset(("*", "/", "div", "quo")),
+        *(frozenset((":", sign)) for sign in ("+", "-", "*", "/", "div", "quo")),
+    ),
+    sign_behind=RELATIONS,
 )
 
 # The controller's data list, its tables of tools and bases with the names in them, and how many each has.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from rpl import ir, registry
-from rpl.writing.precedence import Operator, OperatorTable
+from rpl.writing.precedence import RELATIONS, Operator, OperatorTable
 
 
 def words(text: str) -> frozenset[str]:
@@ -142,7 +142,8 @@ _BINARY = {
 OPERATOR_TABLE = OperatorTable(
     _BINARY,
     {"-": Operator("-", _SUM, spaced=False), "+": Operator("+", _SUM, spaced=False)},
-    mixed=(frozenset(_BINARY),),
+    mixed=(RELATIONS | {"cand", "and", "cor", "or", "xor"}, frozenset(("*", "/", "@", "div", "mod"))),
+    sign_behind=RELATIONS,
 )
 # BitAnd and its kin take bytes only, so operations on whole numbers are not among them.
 OPERATORS = frozenset((*_BINARY, ":", "**", "not"))

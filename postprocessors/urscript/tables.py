@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl.registry import words as shared_words
-from rpl.writing.precedence import Operator, OperatorTable
+from rpl.writing.precedence import RELATIONS, Operator, OperatorTable
 
 
 def words(text: str) -> frozenset[str]:
@@ -64,6 +64,7 @@ OPERATORS = OperatorTable(
     binary=_BINARY,
     unary={"-": Operator("-", SIGN), "+": Operator("+", SIGN), "not": Operator("not", NOT)},
     mixed=(frozenset(("or", "cor", "xor", "and", "cand")), frozenset(("*", "/"))),
+    sign_behind=RELATIONS,
 )
 # Operators written as a function: of the controller, or one that the program brings along.
 OPERATOR_FUNCTIONS = {

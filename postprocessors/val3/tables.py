@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rpl.registry import words as shared_words
 from rpl.words import spelled
-from rpl.writing.precedence import Operator, OperatorTable
+from rpl.writing.precedence import RELATIONS, Operator, OperatorTable
 from rpl.writing.text import NumberStyle
 
 
@@ -52,6 +52,7 @@ OPERATORS = OperatorTable(
     binary=_BINARY,
     unary={"-": Operator("-", SIGN), "+": Operator("+", SIGN), "not": Operator("!", SIGN)},
     mixed=(frozenset(("or", "cor", "xor", "and", "cand")), frozenset(("*", "/", "mod"))),
+    sign_behind=RELATIONS,
 )
 
 _WORDS = shared_words("val3")

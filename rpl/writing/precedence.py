@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from rpl import ir
 
 LOWEST, ATOM = 0, 1000
+RELATIONS = frozenset(("=", "<>", "<", ">", "<=", ">="))
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +31,8 @@ class OperatorTable:
     """A target's operators by their names in the IR. An operator that is missing is given to the hook.
 
     mixed: within each group, an operand with another operator of the group gets brackets. always: every operand that is
-    itself an operation gets them. sign_anywhere: a signed operand may follow an operator bare (`a * -b`).
+    itself an operation gets them. sign_anywhere: a signed operand may follow any operator bare (`a * -b`); sign_behind:
+    these operators (`a <= -b`).
     """
 
     binary: Mapping[str, Operator]
@@ -38,6 +40,7 @@ class OperatorTable:
     mixed: tuple[frozenset[str], ...] = ()
     always: bool = False
     sign_anywhere: bool = False
+    sign_behind: frozenset[str] = frozenset()
     brackets: tuple[str, str] = ("(", ")")
 
 
@@ -102,7 +105,7 @@ class ExpressionPrinter:
         signed = printed.text[:1] in ("-", "+")
         if (
             printed.level < at_least
-            or (signed and not first and not self.table.sign_anywhere)
+            or (signed and not first and not self.table.sign_anywhere and op not in self.table.sign_behind)
             or self._doubtful(operand, op)
         ):
             return self.bracketed(printed.text)

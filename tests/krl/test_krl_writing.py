@@ -146,7 +146,7 @@ def test_what_was_written_is_written_alike_again() -> None:
 
 
 BRACKETS = [
-    ("X=A+B*C", "X=A+(B*C)"),
+    ("X=A+(B*C)", "X=A+B*C"),
     ("X=(A>5) AND (B<3)", "X=(A>5) AND (B<3)"),
     ("X=A AND B OR C", "X=(A AND B) OR C"),
     ("X=NOT (A AND B)", "X=NOT (A AND B)"),
@@ -154,12 +154,15 @@ BRACKETS = [
     ("X=A*-B", "X=A*(-B)"),
     ("X=(A:B):C", "X=A:B:C"),
     ("X=A:(B:C)", "X=A:(B:C)"),
-    ("X=(A+1)>B", "X=(A+1)>B"),
+    ("X=(A+1)>B", "X=A+1>B"),
+    ("X=A<=(-3)", "X=A<=-3"),
+    ("X=A/B*C", "X=(A/B)*C"),
+    ("X=(A>5)==(B<3)", "X=(A>5)==(B<3)"),
 ]
 
 
 @pytest.mark.parametrize(("text", "wanted"), BRACKETS)
-def test_brackets_stand_around_mixed_operands(text: str, wanted: str) -> None:
+def test_brackets_stand_where_a_reader_could_doubt(text: str, wanted: str) -> None:
     _, _, out = round_trip(f"DEF P()\nDECL REAL A,B,C\n{text}\nEND\n")
     assert wanted in out
 

@@ -288,7 +288,7 @@ def test_what_cannot_be_said_is_guarded(statement: ir.Statement, code: str) -> N
         (ir.RealLiteral(2.0, "2.0E0x"), "2"),
         (ir.IntLiteral(31, "'H1F'"), "31"),
         (ir.Binary("*", ir.Binary("+", ir.Name("a"), ir.Name("b")), ir.Name("c")), "(a+b)*c"),
-        (ir.Binary("+", ir.Name("a"), ir.Binary("*", ir.Name("b"), ir.Name("c"))), "a+(b*c)"),
+        (ir.Binary("+", ir.Name("a"), ir.Binary("*", ir.Name("b"), ir.Name("c"))), "a+b*c"),
         (ir.Binary("-", ir.Name("a"), ir.Binary("-", ir.Name("b"), ir.Name("c"))), "a-(b-c)"),
         (ir.Unary("not", ir.Binary("cand", ir.Name("a"), ir.Name("b"))), "NOT (a AND b)"),
         (ir.Binary("cand", ir.Unary("not", ir.Name("a")), ir.Name("b")), "(NOT a) AND b"),
