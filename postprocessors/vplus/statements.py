@@ -7,8 +7,6 @@ from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.ir.walk import walk
-from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.scope import Scope
 from rpl.source import Origin
 from rpl.writing.anywhere import Anywhere
@@ -20,7 +18,6 @@ from .actions import Actions
 from .decoding import decoded
 from .expressions import Expressions, Notes
 from .facts.moves import hand
-from .facts.tasks import is_later
 from .motion import Motion
 from .output import Output
 
@@ -51,7 +48,6 @@ class Printer(StatementPrinter[str]):
         self.motion = Motion(self.expressions, output.facts)
         self.may_move = Anywhere(lambda node: isinstance(node, ir.Move | ir.CallRoutine))
         self.actions = Actions(self)
-        self.owed = False  # must the robot stand before it moves again, although the program goes on?
 
     # ---- lines and comments
 
@@ -64,7 +60,6 @@ class Printer(StatementPrinter[str]):
                 behind = self.say("behind", text=_one_line(comment.text))
             else:
                 self.comment(comment)
-        self.owed = self.owed and text != "BREAK"
         before, self.notes.before = self.notes.before, []
         for one in before:
             self.lines.extend(map(self.fitted, self.say.lines("step", text=one)))
@@ -105,17 +100,12 @@ class Printer(StatementPrinter[str]):
 
     def body(self, body: ir.Body, inner: bool = True) -> None:
         self.depth += inner
-        begun = inner and self.owed and not any(map(_needs_standing, statements_in(body)))
         at = 0
         while at < len(body):
-            if self.owed and _needs_standing(body[at]):
-                self.line("BREAK")
             joined = self.joined(body[at:])
             if not joined:
                 self.statement(body[at])
             at += joined or 1
-        if self.owed and not begun:  # a move that began in front of these steps goes on behind them
-            self.line("BREAK")
         self.depth -= inner
 
     def joined(self, body: ir.Body) -> int:
@@ -221,10 +211,7 @@ class Printer(StatementPrinter[str]):
         self.more(*inner, *before)
         word, _, places = step.partition(" ")
         self.line(step, _behind_only(move.origin), self.say("move", word=word, places=places))
-        if move.concurrent and self.output.facts.foreign:
-            self.owed = bool(behind)
-        else:
-            self.more(*behind)
+        self.more(*behind)
 
     def comments_only_before(self, origin: Origin) -> None:
         for comment in origin.comments:
@@ -316,15 +303,6 @@ class Printer(StatementPrinter[str]):
         self.put("for_head", loop.origin, counter=counter, start=start, stop=stop, step=step)
         self.body(loop.body)
         self.line("END")
-
-
-def _needs_standing(statement: ir.Statement) -> bool:
-    """Does it move the robot, or go where nobody knows?"""
-    if isinstance(statement, ir.TaskControl):
-        return not is_later(statement.task)
-    if isinstance(statement, ir.Label | ir.Goto | ir.Return | ir.ExitLoop | ir.NextPass):
-        return True
-    return any(isinstance(node, ir.Move | ir.CallRoutine) for node in walk((statement,)))
 
 
 def _one_line(text: str) -> str:

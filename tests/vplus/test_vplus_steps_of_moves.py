@@ -126,3 +126,16 @@ def test_outputs_get_tasks_as_long_as_there_are_some() -> None:
     pulses = [ir.SetAfter(signal, ir.BoolLiteral(True), number(0.5)) for signal in signals]
     *others, last = steps(*pulses)
     assert all(isinstance(one, ir.TaskControl) for one in others) and last == pulses[-1]
+
+
+BESIDE = replace(EXACT, concurrent=True)
+CHOICE = ir.If(((ir.Name("up"), (ON,)),))
+LEAVES = ir.If(((ir.Name("up"), (ir.Return(),)),))
+
+
+def test_a_move_beside_the_program_is_waited_for_where_the_next_one_begins() -> None:
+    assert steps(BESIDE, ON, EXACT) == (UNDER_WAY, ON, STOP, EXACT)
+    assert steps(BESIDE, CHOICE) == (UNDER_WAY, CHOICE, STOP)
+    assert steps(BESIDE, LEAVES, ON) == (UNDER_WAY, STOP, LEAVES, ON)
+    assert steps(BESIDE, STOP, EXACT) == (UNDER_WAY, STOP, EXACT)
+    assert steps(trigger("end"), BESIDE) == (UNDER_WAY, STOP, ON)

@@ -91,7 +91,7 @@ class Corners:
                 case ir.Move(blend=blend, concurrent=False) if blend is not None and not isinstance(
                     blend, ir.BlendStop
                 ):
-                    between = deferred(behind) if has_size(blend) else None
+                    between = deferred(body, at + 1) if has_size(blend) else None
                     if between is None:
                         moves.append(Followed(statement, _next(behind), follows))
                     else:
@@ -206,11 +206,12 @@ def _next(body: ir.Body) -> ir.Statement | None:
     return next((one for one in body if not isinstance(one, _QUIET) and not _is_quiet(one)), None)
 
 
-def deferred(body: ir.Body) -> list[ir.Statement] | None:
-    """The steps between a move and the next one in the same body that can stand behind that; None: there is no next
-    move, or something between them has to come first."""
+def deferred(body: ir.Body, behind: int) -> list[ir.Statement] | None:
+    """The steps from `behind` a move to the next one in the same body that can stand behind that; None: there is no
+    next move, or something between them has to come first."""
     found: list[ir.Statement] = []
-    for statement in body:
+    for at in range(behind, len(body)):
+        statement = body[at]
         if isinstance(statement, ir.Move):
             return found
         if acts_in_corner(statement):

@@ -3,7 +3,8 @@ behind a move acts when the move has begun, and `WAIT DISTANCE(HERE, DEST) <= d`
 
 What acts in the corner at a move's end stands behind the next move: that begins in the corner. Where another language's
 program would act at a corner before the next move, the corner becomes a stop (`facts.corners`). A move with steps
-behind it goes on in the corner of V+ itself, and a wait for the robot behind the steps is its stop.
+behind it goes on in the corner of V+ itself, and a wait for the robot behind the steps is its stop. A move that the
+other program does not wait for has its stop in front of the next move, and of what leads nobody knows where.
 """
 
 from __future__ import annotations
@@ -72,6 +73,7 @@ LOOSE = code(
     "the robot stops at this corner where no move follows at once: V+ would execute the next step when the move begins",
 )
 _OWN_CORNER = ir.BlendSpeed(ir.IntLiteral(100))  # what V+ makes of two moves without a BREAK between them
+_LEAVING = (ir.Goto, ir.Return, ir.ExitLoop, ir.NextPass)
 _HERE, _DEST = ir.System("actual_pose"), ir.System("end_pose")
 _STOP = ir.WaitForMotion()
 
@@ -83,6 +85,7 @@ def path_steps(program: ir.Program, context: WriteContext) -> ir.Program:
         Corners.of(program) if context.foreign else Corners(program),
         names_of(program),
         Anywhere(lambda node: isinstance(node, ir.Move)),
+        Anywhere(lambda node: isinstance(node, (ir.Move, ir.CallRoutine, *_LEAVING))),
     )
     scopes = ProgramScope(program)
 
@@ -121,6 +124,7 @@ class _Shared:
     corners: Corners
     taken: set[str]
     may_move: Anywhere
+    goes_on: Anywhere
     reported: set[tuple[Code, str]] = field(default_factory=set)
 
     def once(self, about: Code, origin: Origin, **words: object) -> None:
@@ -139,37 +143,40 @@ class _Shared:
 @dataclass(slots=True)
 class _Steps:
     """Of one routine. `waiting`: what happens on the way of the next move; `carried`: what comes in the corner at its
-    beginning or behind that; `deferred`: steps that stand behind the next move."""
+    beginning or behind that; `deferred`: steps that stand behind the next move; `going`: the
+    program goes on, and the robot to an exact end."""
 
     shared: _Shared
     scope: Scope
     waiting: list[_Event] = field(default_factory=list)
     carried: list[_Event] = field(default_factory=list)
     deferred: list[ir.Statement] = field(default_factory=list)
+    going: bool = False
     declared: list[ir.Variable] = field(default_factory=list)
 
     # ---- bodies
 
     def body(self, body: ir.Body) -> ir.Body:
         corners = self.shared.corners
-        outer, self.waiting = self.waiting, []
+        outer, self.waiting, self.going = (self.waiting, self.going), [], False
         done: list[ir.Statement] = []
         at = 0
         while at < len(body):
-            statement, here = body[at], body[at:]
+            statement = body[at]
             at += 1
-            if id(statement) in corners.broken:
+            if id(statement) in corners.broken or (self.going and _needs_standing(statement, self.shared.goes_on)):
                 done.append(_STOP)
+                self.going = False
             match statement:
-                case ir.Trigger() if hand(here):
-                    done += here[:2]
+                case ir.Trigger() if hand(body[at - 1 : at + 1]):
+                    done += body[at - 1 : at + 1]
                     at += 1
                 case ir.Trigger():
                     done.append(statement)
                     self.trigger(statement)
                 case ir.Move():
                     self.take_waiting(done)
-                    done += self.move(statement, deferred(body[at:]) is not None)
+                    done += self.move(statement, deferred(body, at) is not None)
                 case _ if id(statement) in corners.deferred:
                     self.deferred.append(statement)
                 case _:
@@ -178,7 +185,10 @@ class _Steps:
                             self.waiting = []  # which move is the next one depends on the run
                         statement = rewrite_bodies(statement, self.body)
                     done.append(statement)
-        self.waiting = outer
+                    self.going = self.going and not _waits_for_robot(statement)
+        if self.going:
+            done.append(_STOP)
+        self.waiting, self.going = outer
         return body if same(done, body) else tuple(done)
 
     def trigger(self, trigger: ir.Trigger) -> None:
@@ -217,11 +227,10 @@ class _Steps:
         if around.last and not stop:
             self.shared.context.diagnostics.report(STOPPED, move.origin)
             stop = (_STOP,)
-        if not around.behind:
+        if not around.behind and not (move.concurrent and around.last):
             return [*self.at(move, around.before), *self.plain(move, stop), *self.at(move, around.last)]
         if move.concurrent and not around.last and self.shared.context.foreign:
-            begun = replace(move, blend=ir.BlendStop()) if stop else move
-            return [*self.at(move, around.before), begun, *self.at(move, around.behind)]
+            return [*self.at(move, around.before), *self.plain(move, stop), *self.at(move, around.behind)]
         begun = replace(move, blend=_OWN_CORNER, concurrent=False)
         ending = [*stop, *self.at(move, around.last)]
         return [*self.at(move, around.before), begun, *self.at(move, around.behind), *ending]
@@ -231,7 +240,10 @@ class _Steps:
         return [one if one.origin.source is not None else _placed(one, move.origin) for one in steps]
 
     def plain(self, move: ir.Move, stop: ir.Body) -> list[ir.Statement]:
-        """The move without steps while it is under way."""
+        """The move without steps while it is under way, or none that belong to it."""
+        if stop and move.concurrent and self.shared.context.foreign:
+            self.going = True
+            return [replace(move, blend=_OWN_CORNER, concurrent=False)]
         if stop == (_STOP,):
             return [move if isinstance(move.blend, ir.BlendStop) else replace(move, blend=ir.BlendStop())]
         return [move, *stop]
@@ -396,6 +408,18 @@ class _Steps:
         trigger = event.trigger
         signal = isinstance(trigger.action, ir.Assign)
         return not signal and trigger.delay is not None and self.known(trigger.delay) != 0
+
+
+def _needs_standing(statement: ir.Statement, goes_on: Anywhere) -> bool:
+    """Does it move the robot, or go where nobody knows?"""
+    return isinstance(statement, ir.Label | ir.TaskControl) or goes_on.within(statement)
+
+
+def _waits_for_robot(statement: ir.Statement) -> bool:
+    match statement:
+        case ir.WaitForMotion() | ir.Wait(in_position=True) | ir.WaitUntil(in_position=True):
+            return True
+    return False
 
 
 def _distance(one: ir.Expression, other: ir.Expression) -> ir.Expression:
