@@ -108,6 +108,17 @@ IN_ORDER = """MODULE m
   ENDPROC
 ENDMODULE
 """
+BEFORE = """.PROGRAM main()
+ $a = "gear"
+ IF $a < "gears" THEN
+ SIGNAL 1
+ END
+ ok = ("axle" > $a) OR ($a == "gear")
+ IF ok THEN
+ SIGNAL 2
+ END
+.END
+"""
 JOINTS = """MODULE k
   CONST robtarget p:=[[500,150,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   PROC main()
@@ -176,6 +187,7 @@ END PROCEDURE
         ),
         (READ_BACK, "krl", KUKA, [("vplus-guarded-stop", 4)], "vplus"),
         (IN_ORDER, "rapid", ABB, [("text-order-lost", 5), ("text-order-lost", 6)], "krl tp urscript vplus inform"),
+        (BEFORE, "vplus", VIPER, [("text-order-lost", 3), ("text-order-lost", 6)], "krl rapid urscript inform"),
         (JOINTS, "rapid", ABB, [("kinematics-lost", 5)], "vplus"),
         (ALL_ERRORS, "vplus", VIPER, [("error-routine-lost", 2)], "krl rapid tp urscript inform"),
         (RAISED, "rpl", KUKA, [("error-routine-lost", 4)], "vplus"),

@@ -132,7 +132,6 @@ CASES = [
     ),
     *_rows(
         "sourcetexts",
-        ("(rpl_text_order({0}, {1}) < 0) = ({0} < {1}) AND (rpl_text_order({0}, {1}) = 0) = ({0} = {1})", WORD, WORD),
         (
             "near(rpl_leading_number({0} & {1}), text_value({0}))",
             DIGITS,

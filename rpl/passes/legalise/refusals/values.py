@@ -7,7 +7,7 @@ from typing import get_args
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
-from rpl.passes.capabilities import DataRule
+from rpl.passes.capabilities import DataRule, TextRule
 from rpl.passes.legalise.facts.usage import each_expression
 from rpl.passes.legalise.refusals.rows import PLAINLY, Asked, Found, Refusal
 from rpl.passes.typewords import component_names
@@ -46,7 +46,7 @@ COMPARED = code(
 ORDER = code(
     "text-order-lost",
     Severity.LOSS,
-    "the target does not compare texts in an order of characters that the program gives",
+    "the target's programs cannot tell which of two texts stands in front of the other in this order",
     "compare numbers in place of the texts, or let the program that sends them say their order",
     stops=True,
 )
@@ -107,6 +107,21 @@ def _compared(statement: ir.Statement, asked: Asked) -> Found:
     return tuple(found[:1])
 
 
+def _before(statement: ir.Statement, asked: Asked) -> Found:
+    """Texts of which one has to stand in front of the other."""
+    found: list[ir.Expression] = []
+
+    def look(expression: ir.Expression) -> None:
+        match expression:
+            case ir.Binary(op="<" | "<=" | ">" | ">=", left=left):
+                if isinstance(type_of(left, asked.scope), ir.StringType):
+                    found.append(expression)
+
+    if TextRule.ORDER not in asked.can.texts.rules and not asked.can.carries_rules:
+        each_expression(statement, look, kinds={f"operator {one}" for one in ("<", "<=", ">", ">=")})
+    return PLAINLY if found else ()
+
+
 def _record(side: ir.Expression, asked: Asked) -> str:
     """What is compared where it has components; nothing of a number, a text, a truth or a pose."""
     type = type_of(side, asked.scope)
@@ -124,6 +139,7 @@ def _record(side: ir.Expression, asked: Asked) -> str:
 VALUES = (
     Refusal("random numbers", RANDOM, get_args(ir.Statement), _lacking("random")),
     Refusal("texts in a given order of characters", ORDER, get_args(ir.Statement), _lacking("text_order")),
+    Refusal("texts compared by their order", ORDER, get_args(ir.Statement), _before, left=False),
     Refusal("the tool or work object in use as a record", USED, (ir.Assign,), _in_use, left=False),
     Refusal("the payload in use", PAYLOAD, get_args(ir.Statement), _payload),
     Refusal(

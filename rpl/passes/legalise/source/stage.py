@@ -43,7 +43,6 @@ from rpl.passes.legalise.source.texts.leadingnumbers import leading_numbers
 from rpl.passes.legalise.source.texts.textbytes import text_bytes
 from rpl.passes.legalise.source.texts.textdecimals import text_decimals
 from rpl.passes.legalise.source.texts.textlengths import text_lengths
-from rpl.passes.legalise.source.texts.textorders import text_orders
 from rpl.passes.legalise.source.texts.wholetexts import whole_texts
 from rpl.passes.legalise.source.timedwaits import timed_waits
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
@@ -100,7 +99,6 @@ STAGE = Stage(
         displacements,
         whole_settings,
         whole_texts,
-        text_orders,
         text_bytes,
         leading_numbers,
         text_decimals,
