@@ -53,7 +53,6 @@ def test_a_pass_that_sees_nothing_does_nothing(language: str, target: str, monke
     ("node", "kinds"),
     [
         (ir.Move("linear", ir.Name("p")), "Move"),
-        (ir.Move("linear", ir.Name("p"), concurrent=True), "Move|concurrent move"),
         (ir.Move("joint", ir.Name("p"), relative="joints"), "Move|move relative to joints"),
         (ir.Move("linear", ir.Name("p"), motion_class="velocity"), "Move|velocity move"),
         (ir.Signal("flag", ir.IntLiteral(1)), "Signal|signal flag"),

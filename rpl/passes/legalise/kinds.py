@@ -51,9 +51,7 @@ def kinds_of(node: object) -> tuple[str, ...]:
 
 
 def move_kinds(move: ir.Move) -> Iterator[str]:
-    """What is not said of every move: `concurrent move`, `move relative to base`, `velocity move`."""
-    if move.concurrent:
-        yield "concurrent move"
+    """What is not said of every move: `move relative to base`, `velocity move`."""
     if move.relative is not None:
         yield f"move relative to {move.relative}"
     if move.motion_class != "classic":
