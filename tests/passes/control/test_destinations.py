@@ -55,7 +55,8 @@ def written(
 )
 def test_behind_a_move_it_is_its_target(between: str, known: bool) -> None:
     program = VPLUS.format(between=between)
-    assert not written(program, "main.v2", "vplus", "urscript", "adept_viper_s650")[1]
+    losses = written(program, "main.v2", "vplus", "urscript", "adept_viper_s650")[1]
+    assert losses == (["concurrent-move"] if "HERE" in between else [])  # what looks on beside the move
     warnings = written(program, "main.v2", "vplus", "urscript", "adept_viper_s650", "WARNING")[1]
     assert ("destination-waited-for" in warnings) != known, warnings
 
