@@ -93,8 +93,9 @@ def test_external_axes_of_a_shifted_place_come_along(place: str, move: str) -> N
 
 
 ASSIGNED = [
-    ("q:=Offs(p,n*10,0,-way);", ["q=p", "q.X=p.X+n*10", "q.Z=p.Z+(-way)"]),
+    ("q:=Offs(p,n*10,0,-way);", ["q=p", "q.X=p.X+n*10", "q.Z=p.Z-way"]),
     ("q:=Offs(p,0,20,0);", ["q=p", "q.Y=p.Y+20"]),
+    ("q:=Offs(p,0,0,-20);", ["q=p", "q.Z=p.Z-20"]),
     ("q:=p;\n    q:=Offs(q,0,20,0);", ["q=rpl_offset(q,0,20,0)"]),  # the place itself
     ("q:=p;\n    q:=Offs(p,q.trans.x-780,0,0);", ["q=rpl_offset(p,q.X-780,0,0)"]),  # looks at what it sets
 ]
