@@ -16,7 +16,7 @@ from rpl.project import read_sources
 from rpl.source import NOWHERE, Source
 from rpl.writing.target import OutputFile, WriteContext
 
-from .passes import LAST
+from .passes.asread import AS_READ
 
 _HEADER = "NPOS"  # every job has it, no module of another language
 
@@ -29,7 +29,7 @@ def _origins(module: ir.Module) -> list[Source]:
 
 def _read_anew(sources: list[Source], context: WriteContext) -> ir.Program:
     program = read_sources(sources, "inform", Diagnostics()).program
-    for one in LAST:
+    for one in AS_READ:
         program = one(program, context)
     return program
 

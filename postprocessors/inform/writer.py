@@ -27,7 +27,6 @@ from .job import Job, winding
 from .labels import Labels
 from .motion import Motion, joined_shifts
 from .operands import Registers, element, numbered, selected
-from .passes.cutmoves import cut_moves
 from .places import WORLD, Constants, Position
 from .positions import Positions
 from .statements import Printer
@@ -70,7 +69,6 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     if same is not None and not context.templates:
         return same
     ledger = EmissionLedger()
-    program = cut_moves(program, context)
     writer = _Writer(program, context, ledger)
     jobs = [job for module in program.modules for job in writer.module(module)]
     writer.finish(jobs)

@@ -5,17 +5,15 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed, again
 
+from .asread import AS_READ
+from .cutmoves import cut_moves
 from .dialogs import number_dialogs
-from .exactends import exact_ends
-from .flagbytes import flags_in_bytes
 from .framenumbers import frame_numbers
 from .groupsizes import groups_in_sizes
 from .jointways import stand_before_ways
 from .longconditions import short_conditions
-from .moveactions import actions_of_moves
 from .pathpoints import path_points
 from .shiftedpoints import shifted_points
-from .takenbranches import taken_branches
 from .watches import counted_watches
 
 PASSES: tuple[Placed, ...] = (
@@ -30,4 +28,4 @@ PASSES: tuple[Placed, ...] = (
     Placed(again(short_conditions, "opposites of conditions are longer"), "control", behind="steps again"),
     Placed(number_dialogs, "statements", behind="decide_logic"),
 )
-LAST = (flags_in_bytes, taken_branches, actions_of_moves, exact_ends)
+LAST = (*AS_READ, cut_moves)

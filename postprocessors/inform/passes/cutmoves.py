@@ -27,6 +27,7 @@ from ..facts.tasks import started_first
 from ..job import pose_of_joints
 from ..operands import constant
 from ..places import WORLD, Constants, Position, Values, inverse, matrix, product
+from ..unchanged import unchanged
 from ..ways import Flags, Way, arc, line
 
 CUT = code(
@@ -57,9 +58,11 @@ _CORNER_MM = tables.TAGS["CR"][0]
 
 
 def cut_moves(program: ir.Program, context: WriteContext) -> ir.Program:
-    """A move keeps its actions where nothing can say where they happen."""
+    """A move keeps its actions where nothing can say where they happen, and in jobs that nobody has changed."""
     if not any(isinstance(node, ir.Move) and node.triggers for node in walk_for({"Move"}, *program.modules)):
         return program
+    if not context.foreign and not context.templates and unchanged(program, context) is not None:
+        return program  # the jobs are written as they stand in their files
     constants = Constants.of(program, started_first(program))
     constants.names = {f"{bank}{number}": name for (bank, number), name in context.register_names.items()}
     known: dict[int, Constants] = {}
