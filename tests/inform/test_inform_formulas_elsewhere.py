@@ -22,7 +22,7 @@ def written(text: str, target: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "target, formula", [("rapid", "D001:=(B001*3)+2;"), ("krl", "D001=(B001*3)+2"), ("vplus", "d001 = b001*3+2")]
+    "target, formula", [("rapid", "D001:=B001*3+2;"), ("krl", "D001=B001*3+2"), ("vplus", "d001 = b001*3+2")]
 )
 def test_steps_are_one_formula(target: str, formula: str) -> None:
     text = written(STEPS, target)
