@@ -100,7 +100,7 @@ class _Points:
                 case ir.Trigger():
                     waiting.append(statement)
                 case ir.Move():
-                    done.extend(self.move(statement, waiting, _goes_on(body[at + 1 :])))
+                    done.extend(self.move(statement, waiting, _goes_on(body, at + 1)))
                     waiting, self.last = [], statement
                 case ir.Assign(target=target):
                     done.append(statement)
@@ -281,10 +281,10 @@ class _Points:
         return abs(sum(a * b for a, b in pairs)) > _SAME_TURN
 
 
-def _goes_on(behind: ir.Body) -> bool:
-    """Does the next move follow without anything that is seen or takes time?"""
-    for one in behind:
-        match one:
+def _goes_on(body: ir.Body, begin: int) -> bool:
+    """Does the next move follow from there on without anything that is seen or takes time?"""
+    for at in range(begin, len(body)):
+        match body[at]:
             case ir.Move():
                 return True
             case ir.Nothing() | ir.LookAhead() | ir.Trigger():

@@ -82,18 +82,14 @@ class Corners:
     def collect(self, body: ir.Body, rest: Callable[[], str], moves: list[Followed]) -> None:
         """Every move that goes over a corner, and every call, with what follows it."""
         for at, statement in enumerate(body):
-            behind = body[at + 1 :]
-
-            def follows(behind: ir.Body = behind) -> str:
-                return self.first(behind, rest)
-
+            follows = partial(self.first, body, rest, at + 1)
             match statement:
                 case ir.Move(blend=blend, concurrent=False) if blend is not None and not isinstance(
                     blend, ir.BlendStop
                 ):
                     between = deferred(body, at + 1) if has_size(blend) else None
                     if between is None:
-                        moves.append(Followed(statement, _next(behind), follows))
+                        moves.append(Followed(statement, _next(body, at + 1), follows))
                     else:
                         self.deferred |= set(map(id, between))
                 case ir.Label(name=name):
@@ -136,9 +132,10 @@ class Corners:
             self.behind[asked] = ACTS if ACTS in found else MOVES
         return self.behind[asked]
 
-    def first(self, body: ir.Body, rest: Callable[[], str]) -> str:
-        """What comes first: a move, or something that acts or looks at the world."""
-        for at, statement in enumerate(body):
+    def first(self, body: ir.Body, rest: Callable[[], str], begin: int = 0) -> str:
+        """What comes first from there on: a move, or something that acts or looks at the world."""
+        for at in range(begin, len(body)):
+            statement = body[at]
             match statement:
                 case ir.Move() | ir.WaitForMotion():
                     return MOVES
@@ -150,8 +147,7 @@ class Corners:
                     if found != ENDS:
                         return found
                 case ir.If() | ir.Switch():
-                    behind = body[at + 1 :]
-                    return self.choice(statement, partial(self.first, behind, rest))
+                    return self.choice(statement, partial(self.first, body, rest, at + 1))
                 case ir.While() | ir.For() | ir.Repeat() | ir.Loop():
                     found = self.around(statement, lambda: ENDS)()
                     if found != ENDS:
@@ -201,9 +197,10 @@ class Corners:
         return found
 
 
-def _next(body: ir.Body) -> ir.Statement | None:
-    """The step that comes first, apart from those that do nothing outside of the program."""
-    return next((one for one in body if not isinstance(one, _QUIET) and not _is_quiet(one)), None)
+def _next(body: ir.Body, begin: int) -> ir.Statement | None:
+    """The step that comes first from there on, apart from those that do nothing outside of the program."""
+    rest = (body[at] for at in range(begin, len(body)))
+    return next((one for one in rest if not isinstance(one, _QUIET) and not _is_quiet(one)), None)
 
 
 def deferred(body: ir.Body, behind: int) -> list[ir.Statement] | None:

@@ -204,8 +204,11 @@ class _Steps:
     def take_waiting(self, done: list[ir.Statement]) -> None:
         """The triggers whose move is here leave their remarks."""
         taken = {id(event.trigger) for event in self.waiting}
-        for at in range(len(done) - 1, -1, -1):
+        at = len(done)
+        while taken:  # they stand in front of the move, nothing goes further back than to the first of them
+            at -= 1
             if id(done[at]) in taken:
+                taken.discard(id(done[at]))
                 origin = done[at].origin
                 done[at : at + 1] = [ir.Nothing(origin=origin)] if origin.comments else []
 

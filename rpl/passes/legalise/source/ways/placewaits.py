@@ -13,6 +13,7 @@ from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.stages import legalising
+from rpl.passes.rewrite import same
 from rpl.source import Comment
 
 _HERE = ir.Builtin("pose_of", (ir.Builtin("current_target", ()),))
@@ -42,25 +43,28 @@ def _nearest(wait: ir.WaitUntil) -> ir.IntLiteral | ir.RealLiteral | None:
 
 def _with_actions(body: ir.Body) -> ir.Body:
     done: list[ir.Statement] = []
-    rest = body
-    while rest:
-        statement, rest = rest[0], rest[1:]
+    at = 0
+    while at < len(body):
+        statement = body[at]
+        at += 1
         match statement:
             case ir.Move(kind="linear", search=None, concurrent=False):
-                actions, rest = _actions(rest)
+                actions, at = _actions(body, at)
                 done += [*actions, replace(statement, blend=ir.BlendStop()) if actions else statement]
             case _:
                 done.append(inside(statement, _with_actions))
-    return tuple(done)
+    return body if same(done, body) else tuple(done)
 
 
-def _actions(rest: ir.Body) -> tuple[list[ir.Statement], ir.Body]:
-    """The actions behind a move, and what follows them: a stop. None where the program does anything else there."""
+def _actions(body: ir.Body, begin: int) -> tuple[list[ir.Statement], int]:
+    """The actions from there on, behind a move, and where the stop stands that follows them. None where the program
+    does anything else there."""
     actions: list[ir.Statement] = []
     asked: ir.Expression | None = None
     nearest: float = inf
     told: tuple[Comment, ...] = ()
-    for at, statement in enumerate(rest):
+    for at in range(begin, len(body)):
+        statement = body[at]
         match statement:
             case ir.WaitUntil():
                 limit = _nearest(statement)
@@ -74,10 +78,10 @@ def _actions(rest: ir.Body) -> tuple[list[ir.Statement], ir.Body]:
                 actions.append(ir.Trigger("end", action, asked, origin=origin))
                 told = ()
             case ir.WaitForMotion() if not told:
-                return actions, rest[at:] if actions else rest
+                return actions, at if actions else begin
             case _:
                 break
-    return [], rest
+    return [], begin
 
 
 __all__ = ["place_waits"]
