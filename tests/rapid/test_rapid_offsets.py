@@ -38,9 +38,11 @@ def read(moves: str) -> ReadProgram:
     return read_sources(texts, "krl", Diagnostics())
 
 
-def rapid(moves: str) -> tuple[str, ReadProgram]:
+def rapid(moves: str, diagnostics: Diagnostics | None = None) -> tuple[str, ReadProgram]:
     """What is written, and that as it is read."""
-    files = translate_program(read(moves), "rapid", ARM, None, Diagnostics()).files
+    files = translate_program(
+        read(moves), "rapid", ARM, None, Diagnostics() if diagnostics is None else diagnostics
+    ).files
     sources = [source_from_bytes(one.path, one.data) for one in files if one.path.endswith(".mod")]
     return "\n".join(one.text for one in sources), read_sources(sources, "rapid", Diagnostics())
 
@@ -69,6 +71,18 @@ def test_a_frame_that_moves_several_points_keeps_its_name() -> None:
 )
 def test_what_turns_or_changes_or_is_a_frame_stays_a_product(moves: str) -> None:
     assert "Offs(" not in rapid(moves)[0]
+
+
+@pytest.mark.parametrize(
+    ("moves", "named"),
+    [("LIN once:XP1", "once"), ("LIN over:XP1\nLIN over:XP2", "over"), ("LIN XP1", ""), ("LIN turned:XP1", "")],
+)
+def test_what_does_not_follow_the_frame_is_named_once(moves: str, named: str) -> None:
+    diagnostics = Diagnostics()
+    rapid(moves, diagnostics)
+    told = [one.message for one in diagnostics if one.code.name == "taught-value-written"]
+    assert len(told) == (1 if named else 0)
+    assert all(f"worked out of {named} as taught now" in one for one in told)
 
 
 def test_the_robot_goes_the_same_way() -> None:

@@ -1,9 +1,10 @@
-"""Points moved by a frame that turns nothing (KRL `Over:XP1`, V+ `over:pick`) as `Offs`: RAPID multiplies poses, not
-robtargets, so that the point would be put together in four lines in front of its move. Offs moves the point along the
-same axes and keeps its configuration and external axes, as the product does.
+"""Points moved by a frame that turns nothing (KRL `Over:XP1`) as `Offs`: RAPID multiplies poses, not robtargets, so
+that the point would be put together in four lines in front of its move. Offs moves the point along the same axes and
+keeps its configuration and external axes, as the product does.
 
 The frame is data that nothing assigns and that only moves points. One that moves a single point is its numbers at the
-move, as most of Offs is written (counted: 84 % have literal numbers); one that moves several keeps its name.
+move, as most of Offs is written (counted: 84 % have literal numbers); one that moves several keeps its name. What would
+not follow the frame when it is taught anew is reported.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Iterator
 from rpl import ir
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.values.taughtvalues import tell_written
 from rpl.passes.legalise.kinds import holds_none, rewrite_for, walk_for
 from rpl.passes.legalise.rewriting.editing import edit_each
 from rpl.passes.legalise.rewriting.unreaddata import without_unread
@@ -26,6 +28,8 @@ from rpl.passes.typing import type_of
 _PRODUCTS = frozenset(("operator :", "function compose"))
 _PLAIN = (ir.Name, ir.Index, ir.Field)
 _NO_TURN_DEG = 1e-9
+NUMBERS = "the way that this point is moved by"
+NOT_NAMED = "that the way of this point has no turn, and the parts of it that are 0"
 
 
 @legalising(sees=tuple(sorted(_PRODUCTS)))
@@ -51,11 +55,14 @@ def points_offset(program: ir.Program, context: Context) -> ir.Program:
             if product is None or product[0].id.lower() not in only_moving:
                 return node
             frame, point = product
-            way = _way(frame, scope, unchanged, only_moving[frame.id.lower()] > 1)
+            by_name = only_moving[frame.id.lower()] > 1
+            way = _way(frame, scope, unchanged, by_name)
             if way is None:
                 return node
-            done.add(frame.id.lower())
             assert isinstance(node, ir.Binary | ir.Builtin)  # as `_moved` found it
+            if frame.id.lower() not in done:
+                tell_written(context, scope, node.origin, NOT_NAMED if by_name else NUMBERS, frame)
+                done.add(frame.id.lower())
             return ir.Builtin("offset", (point, *way), origin=node.origin)
 
         return rewrite_for(_PRODUCTS, routine, change)

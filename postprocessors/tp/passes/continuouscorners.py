@@ -1,7 +1,7 @@
 """Corners with a size in mm as CNT, which every controller has: CR is an option that no public program uses (counted:
 0 of 5,591 moves). The controller's own model says how far before its end a move at a speed begins the corner of each
-CNT; the one whose corner comes nearest is written, and never a larger one than the controller can drive. Where the run
-decides the speed or the size, the size stays, and CR says it.
+CNT; the one whose corner comes nearest is written, and never a larger one than the controller can drive. Where no
+number says the path speed (the run decides it, or the move says a time) or the size, CR says the size.
 """
 
 from __future__ import annotations
