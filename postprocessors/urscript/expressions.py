@@ -20,6 +20,7 @@ from rpl.writing.statements import CannotSayError
 from . import spelling, tables
 from .geometry import Geometry
 from .places import Places
+from .units import scaled
 
 _WHOLE = re.compile(r"\d+")
 _POSES = (ir.PoseType, ir.TargetType, ir.VectorType, ir.RotationType)
@@ -83,7 +84,7 @@ class Expressions:
             case ir.Quantity(value=inner, unit=own):
                 if own == unit:
                     return inner
-                return self.scaled(inner, ir.UNITS[own] / ir.UNITS[unit])
+                return scaled(inner, ir.UNITS[own] / ir.UNITS[unit])
             case ir.Unary(op="-" | "+", operand=operand) if _has_unit(operand):
                 return ir.Unary(value.op, self.in_unit(operand, unit))
             case ir.Binary(op="+" | "-" as op, left=left, right=right) if _has_unit(left) or _has_unit(right):
@@ -91,22 +92,6 @@ class Expressions:
         if ir.UNITS[unit] == 1.0:
             return value
         return ir.Magnitude(value, unit)
-
-    def scaled(self, value: ir.Expression, factor: float) -> ir.Expression:
-        """`value * factor`, worked out when it is written as a number."""
-        if abs(factor - 1.0) < 1e-14:
-            return value
-        match value:
-            case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
-                return ir.RealLiteral(float(f"{number * factor:.12g}"))
-            case ir.Unary(op="-", operand=ir.RealLiteral() | ir.IntLiteral() as literal):
-                return ir.Unary("-", self.scaled(literal, factor))
-            case ir.Convert(how="real", operand=operand):
-                return self.scaled(operand, factor)
-        inverse = 1.0 / factor
-        if factor < 1.0 and abs(inverse - round(inverse)) < 1e-9 * inverse:
-            return ir.Binary("/", value, ir.RealLiteral(float(round(inverse))))
-        return ir.Binary("*", value, ir.RealLiteral(float(f"{factor:.12g}")))
 
     def magnitude(self, value: ir.Expression, unit: str) -> str | Printed:
         """A quantity as a number of `unit`."""
@@ -125,10 +110,10 @@ class Expressions:
                 if inner is not None:
                     return inner
         if known is not None:
-            return self.printer.printed(self.scaled(ir.RealLiteral(known), 1.0 / ir.UNITS[unit]))
+            return self.printer.printed(scaled(ir.RealLiteral(known), 1.0 / ir.UNITS[unit]))
         if unit in ("rad", "rad/s", "rad/s2"):
             return f"d2r({self.text(value)})"
-        return self.printer.printed(self.scaled(value, 1.0 / ir.UNITS[unit]))
+        return self.printer.printed(scaled(value, 1.0 / ir.UNITS[unit]))
 
     def angle(self, call: ir.Builtin) -> str | None:
         """In radians what a function of the controller gives in radians."""
@@ -160,7 +145,7 @@ class Expressions:
             case ir.Builtin():
                 return self.builtin(expression)
             case ir.Quantity(value=value, unit=unit):
-                return printer.printed(self.scaled(value, ir.UNITS[unit]))
+                return printer.printed(scaled(value, ir.UNITS[unit]))
             case ir.Magnitude(value=value, unit=unit):
                 return self.magnitude(value, unit)
             case ir.Convert():

@@ -18,6 +18,7 @@ from rpl.writing.statements import CannotSayError
 
 from . import spelling, tables
 from .expressions import Expressions
+from .units import scaled
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -152,7 +153,7 @@ class Motion:
             limit = float(min(self.robot.speeds))
         elif not any(item.code == NO_ARM for item in self.diagnostics.items):
             self.diagnostics.report(NO_ARM, origin, limit=limit)
-        return self.number(self.expressions.scaled(_bare(speed.joint), limit / 100.0), "rad/s")
+        return self.number(scaled(_bare(speed.joint), limit / 100.0), "rad/s")
 
     def number(self, value: ir.Expression, unit: str) -> str:
         """A setting in its unit, short."""

@@ -12,6 +12,7 @@ from rpl.passes.fold import constant_number
 from rpl.passes.scope import Scope
 from rpl.source import Origin
 from rpl.writing.ledger import EmissionLedger
+from rpl.writing.numbers import added
 from rpl.writing.statements import CannotSayError, StatementPrinter
 from rpl.writing.templates import Macros
 
@@ -253,7 +254,7 @@ class Printer(StatementPrinter[str]):
             condition = text(ir.Binary("cor", up, down))
         else:
             condition = text(ir.Binary("<=" if step > 0 else ">=", counter, stop))
-        onward = f"{loop.counter} = {text(_added(counter, stride))}"
+        onward = f"{loop.counter} = {text(added(counter, stride))}"
         self.line(self.say("while_head", condition=condition))
         self.before_next.append((onward,))
         self.body(loop.body)
@@ -286,15 +287,6 @@ def _polls(loop: ir.While | ir.Repeat | ir.Loop) -> bool:
         if isinstance(node, _TIMED):
             return False
     return looks
-
-
-def _added(counter: ir.Expression, stride: ir.Expression) -> ir.Expression:
-    match stride:
-        case ir.Unary(op="-", operand=operand):
-            return ir.Binary("-", counter, operand)
-        case ir.IntLiteral(value=value) if value < 0:
-            return ir.Binary("-", counter, ir.IntLiteral(-value))
-    return ir.Binary("+", counter, stride)
 
 
 def _one_line(text: str) -> str:

@@ -9,6 +9,7 @@ from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
+from rpl.writing.numbers import scaled
 from rpl.writing.precedence import ExpressionPrinter, Printed
 from rpl.writing.statements import CannotSayError
 from rpl.writing.text import number_text, quoted
@@ -79,9 +80,9 @@ class Expressions:
             case ir.Convert(how=how, operand=operand):
                 return self.converted(how, operand)
             case ir.Quantity(value=value, unit=unit):
-                return printer.printed(_scaled(value, ir.UNITS[unit]))
+                return printer.printed(scaled(value, ir.UNITS[unit]))
             case ir.Magnitude(value=value, unit=unit):
-                return printer.printed(_scaled(value, 1.0 / ir.UNITS[unit]))
+                return printer.printed(scaled(value, 1.0 / ir.UNITS[unit]))
         raise CannotSayError(f"there is no {expression.__class__.__name__}")
 
     def name(self, name: str) -> str:
@@ -351,15 +352,6 @@ def point_row(value: ir.Aggregate, scope: Scope) -> str:
             raise CannotSayError("a configuration that is worked out")
         flags.append(f'{name}="{words[flag.value + 1 if isinstance(flag, ir.IntLiteral) else 0]}"')
     return f"{pose_row(known)} {' '.join(flags)}"
-
-
-def _scaled(value: ir.Expression, factor: float) -> ir.Expression:
-    """value * factor, worked out where it is a number."""
-    if abs(factor - 1.0) < 1e-14:
-        return value
-    if isinstance(value, ir.IntLiteral | ir.RealLiteral):
-        return ir.RealLiteral(float(f"{value.value * factor:.12g}"))
-    return ir.Binary("*", value, ir.RealLiteral(float(f"{factor:.12g}")))
 
 
 def _decimals(e: Expressions, values: tuple[ir.Expression, ...], word: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rpl import ir
+from rpl.writing import numbers
 
 
 def in_unit(value: ir.Expression, unit: str) -> ir.Expression:
@@ -14,19 +15,15 @@ def in_unit(value: ir.Expression, unit: str) -> ir.Expression:
 
 
 def scaled(value: ir.Expression, factor: float) -> ir.Expression:
-    """`value * factor`, worked out when it is written as a number."""
-    if abs(factor - 1.0) < 1e-14:
-        return value
+    """`value * factor`; factors that are written out become one."""
+    return numbers.scaled(value, factor, _product)
+
+
+def _product(value: ir.Expression, factor: float) -> ir.Expression:
     match value:
-        case ir.RealLiteral(value=number) | ir.IntLiteral(value=number):
-            return ir.RealLiteral(float(f"{number * factor:.12g}"))
-        case ir.Unary(op="-", operand=ir.RealLiteral() | ir.IntLiteral() as one):
-            return ir.Unary("-", scaled(one, factor))
-        case ir.Convert(how="real", operand=operand):
-            return scaled(operand, factor)
         case ir.Binary(op="*", left=left, right=ir.RealLiteral() | ir.IntLiteral() as one):
             return scaled(left, one.value * factor)
-    return ir.Binary("*", value, ir.RealLiteral(float(f"{factor:.12g}")))
+    return numbers.times(value, factor)
 
 
 __all__ = ["in_unit", "scaled"]

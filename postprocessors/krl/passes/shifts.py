@@ -18,6 +18,7 @@ from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
+from rpl.writing.numbers import added
 
 __all__ = ["said_shifts"]
 
@@ -78,7 +79,7 @@ class _Shifts:
         later = replace(whole.origin, comments=())
         for part, distance in zip(_PARTS, shift, strict=False):
             if constant_number(distance, self.scope) != 0.0:
-                value = _moved(ir.Field(base, part), distance)
+                value = added(ir.Field(base, part), distance)
                 done.append(ir.Assign(ir.Field(target, part), value, origin=later))
         return tuple(done)
 
@@ -109,15 +110,3 @@ def _is_product(place: ir.Expression) -> bool:
         and place.op == ":"
         and all(isinstance(one, ir.Name) or _is_product(one) for one in (place.left, place.right))
     )
-
-
-def _moved(part: ir.Expression, distance: ir.Expression) -> ir.Expression:
-    """A component and the distance that it is moved by; a way back is subtracted, as people write it."""
-    match distance:
-        case ir.Unary(op="-", operand=back):
-            return ir.Binary("-", part, back)
-        case ir.IntLiteral(value=value) if value < 0:
-            return ir.Binary("-", part, ir.IntLiteral(-value))
-        case ir.RealLiteral(value=value) if value < 0:
-            return ir.Binary("-", part, ir.RealLiteral(-value))
-    return ir.Binary("+", part, distance)
