@@ -55,11 +55,6 @@ def code(name: str, severity: Severity, template: str, help: str = "", stops: bo
     return new
 
 
-def known_codes() -> dict[str, Code]:
-    """All codes declared so far, by name."""
-    return dict(_CODES)
-
-
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
     """One report: its code, where, and the arguments of the message."""

@@ -108,9 +108,6 @@ class Cell:
         """None for a tool that is kept in a variable."""
         return WORLD if number == 0 else self.tools.get(number)
 
-    def value_of_frame(self, number: int) -> Values:
-        return self.frames.get(number, WORLD)
-
     def conditions(self, bank: str) -> dict[int, Values]:
         """The tools or user frames whose values go beside the jobs: those that the controller has not."""
         given = self.tools if bank == tables.TL else self.frames

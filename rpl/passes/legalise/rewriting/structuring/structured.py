@@ -21,7 +21,6 @@ from rpl.passes.legalise.rewriting.editing import Editor, expansion, passes_on
 from rpl.passes.legalise.rewriting.jumps import entered, goes_on, inside, labels, without_labels
 from rpl.passes.legalise.rewriting.structuring.flowgraph import Builder
 from rpl.passes.legalise.rewriting.structuring.regions import Regions
-from rpl.source import Origin
 
 INTO_FOR = code(
     "jump-into-counting-loop",
@@ -149,11 +148,6 @@ class _Tidy:
                 if "Repeat" in self.has and not passes_on(tuple(rest)) and not origin.comments:
                     return ir.Repeat(condition, tuple(rest), origin=origin)
         return statement
-
-
-def _is_behind(said: Origin) -> bool:
-    """Are these remarks that stand on the line of a statement?"""
-    return bool(said.comments) and all(one.behind for one in said.comments)
 
 
 def _terms(condition: ir.Expression) -> list[ir.Expression]:
