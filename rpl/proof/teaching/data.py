@@ -129,8 +129,9 @@ class _Finder:
         origin = value.origin if value.origin.source is not None else owner.origin
         number = 0
         for path, part, leaf, kind, known in _leaves(value, type, scope, (), ""):
-            if _is_zero(known) and (number or isinstance(type, ir.ArrayType)):
-                continue  # a frame that nobody has filled
+            begun = isinstance(owner, ir.Variable) and self.set[name.lower()] > 0
+            if _is_zero(known) and (number or begun or isinstance(type, ir.ArrayType)):
+                continue  # a frame that nobody has filled, or that the program fills
             if "load" in f"{name}{part}".lower():
                 continue  # where a load has its centre is no place
             word = self._kind(kind, name, known)

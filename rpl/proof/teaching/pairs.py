@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import PurePosixPath
 
 from rpl.passes import rigid
 from rpl.proof.teaching.data import FRAME, NUMBER, TOOL, Datum
@@ -48,16 +49,16 @@ def paired(
     for other in theirs:
         best = max(
             (
-                (_likeness(one, other, given), same_value(one, other), one.first, -at, one)
+                (_likeness(one, other, given), same_value(one, other), _at_home(one, other), one.first, -at, one)
                 for at, one in enumerate(ours)
             ),
-            key=lambda row: row[:4],
+            key=lambda row: row[:5],
             default=None,
         )
         if best is None or best[0] == 0:
             left.append(other)
         else:
-            found[best[4]].append(Copy(other, _BY_SURENESS[best[0]]))
+            found[best[5]].append(Copy(other, _BY_SURENESS[best[0]]))
     alone = []
     for other in left:
         same = [one for one in ours if same_value(one, other) and not _is_nothing(other)]
@@ -98,6 +99,17 @@ def _likeness(one: Datum, other: Datum, given: Sequence[Given]) -> int:
     if (mine and mine in _names(other) | {there}) or (there and any(_is_cut(there, name) for name in names)):
         return 2
     return 1 if _words(one) & _words(other) else 0
+
+
+def _at_home(one: Datum, other: Datum) -> bool:
+    """Do the programs that hold them have one name, or one the other's with something behind it? Points of several
+    programs may have one name and one value."""
+    mine, there = sorted((_home(one), _home(other)), key=len)
+    return bool(mine) and there.startswith(mine)
+
+
+def _home(datum: Datum) -> str:
+    return _bare(datum.routine or PurePosixPath(datum.place.file).stem)
 
 
 def _same_number(one: Datum, other: Datum) -> bool:
@@ -142,13 +154,18 @@ def same_value(one: Datum, other: Datum) -> bool:
     """Do both hold the same place, joints or number?"""
     match one.value, other.value:
         case rigid.Pose() as a, rigid.Pose() as b:
-            apart = a.inverse.then(b)
-            return apart.position.length <= _SAME_MM and apart.rotation.angle <= _SAME_DEG
+            return same_place(a, b)
         case tuple() as a, tuple() as b:
             return len(a) == len(b) and all(abs(p - q) <= _SAME_DEG for p, q in zip(a, b, strict=True))
         case float() as a, float() as b:
             return math.isclose(a, b, rel_tol=_SAME_SHARE)
     return False
+
+
+def same_place(one: rigid.Pose, other: rigid.Pose) -> bool:
+    """Are two poses one, as near as files say them?"""
+    apart = one.inverse.then(other)
+    return apart.position.length <= _SAME_MM and apart.rotation.angle <= _SAME_DEG
 
 
 def _is_nothing(datum: Datum) -> bool:
@@ -172,4 +189,4 @@ def given_by(
     return tuple(sorted(found))
 
 
-__all__ = ["Copy", "Given", "given_by", "key_of", "paired", "same_value"]
+__all__ = ["Copy", "Given", "given_by", "key_of", "paired", "same_place", "same_value"]

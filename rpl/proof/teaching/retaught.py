@@ -16,14 +16,15 @@ from rpl import ir
 from rpl.cell import Cell
 from rpl.emulator.model import RobotModel
 from rpl.ir.walk import walk
+from rpl.passes import rigid
 from rpl.passes.given import with_given
 from rpl.proof.difference import Difference
 from rpl.proof.reach import Reach
 from rpl.proof.record import Record, place_of
-from rpl.proof.teaching.data import FRAME, NUMBER, POINT, TOOL, Datum, Taught, taught_data, with_taught
+from rpl.proof.teaching.data import FRAME, NUMBER, POINT, TOOL, Datum, Joints, Taught, taught_data, with_taught
 from rpl.proof.teaching.moving import Amount, Moved, Stand, moved, stand_of
 from rpl.proof.teaching.outcome import Retaught, outcomes_of
-from rpl.proof.teaching.pairs import Given, paired
+from rpl.proof.teaching.pairs import Given, paired, same_place
 from rpl.proof.verdict import DIFFERENT, ProofResult
 
 _MOST_RUNS = 80
@@ -75,7 +76,7 @@ def retaught(base: ProofResult, runs: Runs, asked: Teaching) -> ProofResult:
 
 def _settled(program: ir.Program, cell: Cell | None) -> tuple[ir.Program, Cell | None]:
     """The program that begins with the values of the cell, as far as its data can hold them, and the rest of the
-    cell."""
+    cell. Data that says the cell's value already is not overridden any more when it is taught anew."""
     if cell is None or not cell.variables:
         return program, cell
     left = {}
@@ -84,7 +85,20 @@ def _settled(program: ir.Program, cell: Cell | None) -> tuple[ir.Program, Cell |
         if begun is program:
             left[name] = value
         program = begun
+    held = {one.variable.lower(): one.value for one in taught_data(program, set_numbers=True) if one.first}
+    left = {name: value for name, value in left.items() if not _says(held.get(name.lower()), value)}
     return program, replace(cell, variables=left)
+
+
+def _says(held: rigid.Pose | Joints | float | None, given: object) -> bool:
+    """Is what a datum holds the place that a cell file gives by components?"""
+    if not isinstance(held, rigid.Pose) or not isinstance(given, dict):
+        return False
+    known = {str(name).lower(): value for name, value in given.items()}
+    if not known.keys() <= set(ir.POSE) or not all(isinstance(value, int | float) for value in known.values()):
+        return False
+    x, y, z, a, b, c = (float(known.get(name, 0.0)) for name in ir.POSE)
+    return same_place(held, rigid.Pose(rigid.Vector(x, y, z), rigid.rotation_of_zyx(a, b, c)))
 
 
 class _Teacher:
