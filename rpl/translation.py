@@ -189,8 +189,8 @@ def _translated(
         whole = _joined(whole)
         whole, hiding = rename_hiding(whole, capabilities.names)
         first = first_routine(whole) if asks_for_name(capabilities.names) else None
-        kept = unpinned(earlier, capabilities.names)
         legal_program = legalise(whole, context, target.passes())
+        kept, hiding = unpinned(earlier, capabilities.names), renamed_twice(hiding, context.renamed)
         taken, numbered = frozenset(context.there.names), bool(capabilities.storage.banks)
         program, legal = rename(legal_program, capabilities.names, kept, hiding, taken, numbered)
         apart = _apart(legal, rename(legal_program, capabilities.names, kept, hiding)[1]) if taken else {}

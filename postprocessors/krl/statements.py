@@ -3,6 +3,7 @@ HALT."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from itertools import takewhile
 
@@ -17,6 +18,7 @@ from rpl.writing.templates import Macros
 from . import tables
 from .declarations import constant, elements
 from .expressions import Expressions
+from .forms.written import LENGTH, form_words, is_initialising
 from .motion import Motion
 from .settings import assigned, assignment, coupled, percent_text, speed_of_axes, whole_structure
 
@@ -43,8 +45,17 @@ class Printer(StatementPrinter[str]):
 
     guarded, dialect = GUARDED, "krl"
 
-    def __init__(self, scope: Scope, ledger: EmissionLedger, diagnostics: Diagnostics, macros: Macros) -> None:
+    def __init__(
+        self,
+        scope: Scope,
+        ledger: EmissionLedger,
+        diagnostics: Diagnostics,
+        macros: Macros,
+        frames: Mapping[tuple[str, int], str] | None,
+    ) -> None:
+        """frames: names of tools and bases by table and number; None: forms have their folds already."""
         super().__init__(ledger, diagnostics)
+        self.frames = frames
         self.say, self.step = macros, macros("step")
         self.scope = scope
         self.expressions = Expressions(scope)
@@ -96,6 +107,8 @@ class Printer(StatementPrinter[str]):
         """`$VEL=f()` stands for an assignment to each component, `BAS(#VEL_PTP,n)` for one to each axis: written as the
         one it was. Counts the statements. body: as many as the largest structure has, or all that are left."""
         first = body[0]
+        if self.frames is not None and (count := self.form(body[:LENGTH], self.frames)):
+            return count
         if not (isinstance(first, ir.Assign) and isinstance(first.target, ir.System)):
             return 0
         together = takewhile(lambda one: isinstance(one, ir.Assign), body)
@@ -125,6 +138,27 @@ class Printer(StatementPrinter[str]):
         for statement in body[:count]:
             self.ledger.written(statement)
         return count
+
+    def form(self, body: ir.Body, frames: Mapping[tuple[str, int], str]) -> int:
+        """An inline form, or the INI fold, that begins here. Counts the statements."""
+        first = body[0]
+        if any(comment.text.lstrip().startswith("FOLD") for comment in first.origin.comments):
+            return 0  # it has its own
+        if is_initialising(first):
+            self.folded((first,), lambda line: self.say("ini", call=line))
+            return 1
+        words = form_words(body, self.scope, frames)
+        if words is None:
+            return 0
+        self.folded(body, lambda *lines: self.say("form", lines=lines, speed=_given(lines[3]), **words))
+        return LENGTH
+
+    def folded(self, body: ir.Body, shown: Callable[..., str]) -> None:
+        origin = body[0].origin
+        remarks = tuple(replace(comment, behind=False) for comment in origin.comments)
+        self.line(shown(*map(self.simple, body)), replace(origin, comments=remarks))
+        for statement in body:
+            self.ledger.written(statement)
 
     def written(self, statement: ir.Statement) -> None:
         match statement:
@@ -355,6 +389,11 @@ class Printer(StatementPrinter[str]):
         shown.extend([""] * (6 - len(shown)))
         shown.extend(text(key) if key is not None else "" for key in statement.keys)
         return self.say("message", function="MsgDialog", arguments=shown)
+
+
+def _given(call: str) -> str:
+    """The speed in `BAS(#PTP_PARAMS,50)`."""
+    return call.partition(",")[2].rstrip(")")
 
 
 def _one_line(text: str) -> str:

@@ -55,7 +55,11 @@ SELECTED = {"tool": "TOOL_DATA", "base": "BASE_DATA"}
 NAMES = {"TOOL_DATA": "TOOL_NAME", "BASE_DATA": "BASE_NAME"}
 MOST_FRAMES = 32
 LONGEST_FRAME_NAME = 24
+# What the basis package has for inline forms.
+FORM_NAMES = ("BAS", "$BWDSTART", "PDAT_ACT", "LDAT_ACT", "FDAT_ACT", "PDEFAULT", "FHOME", "$H_POS")
+FORM_TYPES = ("FDAT", "PDAT", "LDAT")
 OWN = frozenset((CONFIG, *(name.lower() for pair in NAMES.items() for name in pair)))
+OWN |= frozenset(name.lower() for name in (*FORM_NAMES, *FORM_TYPES))
 
 EXTERNAL_KINEMATICS = ("EASYS", "EBSYS", "ECSYS", "EDSYS", "EESYS", "EFSYS")
 COUNTED = frozenset(_WORDS.listed("counted"))

@@ -57,6 +57,7 @@ class _Module:
     ) -> None:
         self.module, self.scopes, self.ledger, self.background = module, scopes, ledger, background
         self.diagnostics, self.say = context.diagnostics, macros
+        self.frames = context.register_names if context.foreign else None
         self.is_config = module.name.lower() == tables.CONFIG
         self.scope = scopes.module(module)
 
@@ -115,7 +116,7 @@ class _Module:
         return any(routine.name.lower() == self.module.name.lower() for routine in self.module.routines)
 
     def printer(self, scope: Scope) -> Printer:
-        return Printer(scope, self.ledger, self.diagnostics, self.say)
+        return Printer(scope, self.ledger, self.diagnostics, self.say, self.frames)
 
     # ---- data list
 

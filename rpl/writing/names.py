@@ -65,6 +65,16 @@ def rename_hiding(program: ir.Program, rules: NameRules) -> tuple[ir.Program, di
     return _Renamer(folded, collector.fields, collector.members, ProgramScope(program)).program(program), changed
 
 
+def renamed_as(program: ir.Program, names: Mapping[str, str]) -> ir.Program:
+    """The program with these names (old name -> new name) wherever they stand; nothing else has the new ones."""
+    if not names:
+        return program
+    collector = _Collector()
+    collector.program(program)
+    folded = {old.lower(): new for old, new in names.items()}
+    return _Renamer(folded, collector.fields, collector.members, ProgramScope(program)).program(program)
+
+
 def _started(program: ir.Program, collector: _Collector) -> dict[str, str]:
     """The routine `main` to the name of its module, where nothing else of the program has either name."""
     mains = [(one.name, module.name) for module in program.modules for one in module.routines if _is_main(one.name)]

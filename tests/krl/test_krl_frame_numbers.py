@@ -63,8 +63,9 @@ def test_values_and_names_stand_in_the_controllers_list() -> None:
         "ENDDAT",
     ]
     program = [line for line in files["cell.src"] if line.startswith(("$TOOL", "$BASE"))]
-    assert program == ["$TOOL=TOOL_DATA[1]", "$BASE=BASE_DATA[3]", "$BASE=BASE_DATA[1]"]
+    assert program == ["$BASE=BASE_DATA[1]"]  # the tool and the other base are those of the form in front of it
     data = "\n".join(files["cell.dat"])
+    assert "DECL FDAT FA={TOOL_NO 1,BASE_NO 3," in data
     assert "; One part, two stations" in data and "tGrip" not in data and "STRUC" not in data
     assert done.registers["TOOL_DATA", 1] == "tGrip" and "TOOL_DATA" not in done.map.names
 
@@ -73,15 +74,16 @@ def test_a_map_keeps_the_numbers() -> None:
     given = krl("rapid", "cell.mod", RAPID)[1].map
     moved = parse_map(map_text(given).replace('1 = "tGrip"', '7 = "tGrip"'))
     files, again = krl("rapid", "cell.mod", RAPID, moved)
-    assert again.registers["TOOL_DATA", 7] == "tGrip" and "$TOOL=TOOL_DATA[7]" in files["cell.src"]
+    assert again.registers["TOOL_DATA", 7] == "tGrip"
+    assert any(line.startswith("DECL FDAT FA={TOOL_NO 7,BASE_NO 3,") for line in files["cell.dat"])
     assert krl("rapid", "cell.mod", RAPID, again.map)[0] == files
 
 
 def test_numbers_of_the_source_stay_and_are_noted_nowhere_else() -> None:
     files, _ = krl("tp", "p.ls", TP)
     lines = [line for text in files.values() for line in text]
-    assert "$TOOL=TOOL_DATA[4]" in lines and "$BASE=BASE_DATA[2]" in lines
-    assert not any(line.startswith(("UFRAME", "UTOOL", "DECL")) for line in lines if "P1=" not in line)
+    assert any(line.startswith("DECL FDAT FP1={TOOL_NO 4,BASE_NO 2,") for line in lines)
+    assert not any(line.startswith(("UFRAME", "UTOOL")) or "UFRAME=" in line for line in lines)
 
 
 CHANGED = RAPID.replace("    MoveL", "    wobjBelt.uframe.trans.y:=-10;\n    MoveL")
@@ -89,10 +91,8 @@ CHANGED = RAPID.replace("    MoveL", "    wobjBelt.uframe.trans.y:=-10;\n    Mov
 
 def test_a_frame_that_the_program_changes_stays_data() -> None:
     files, _ = krl("rapid", "cell.mod", CHANGED)
-    assert (
-        "$BASE=wobjBelt.user_frame:wobjBelt.object_frame" in files["cell.src"]
-        and "$BASE=BASE_DATA[3]" in files["cell.src"]
-    )
+    assert "$BASE=wobjBelt.user_frame:wobjBelt.object_frame" in files["cell.src"]
+    assert any(line.startswith("DECL FDAT FA={TOOL_NO 1,BASE_NO 3,") for line in files["cell.dat"])
 
 
 @pytest.mark.parametrize("name", ["tool_data", "base_name"])

@@ -9,6 +9,7 @@ from .changedplaces import changed_places
 from .framenumbers import frame_numbers
 from .groups import name_groups
 from .heldmotion import held_motion
+from .inlineforms import inline_forms
 from .onemove import settings_of_one_move
 from .roomytexts import roomy_texts
 from .searches import searches
@@ -30,4 +31,5 @@ PASSES: tuple[Placed, ...] = (
     Placed(begun_anew, "storage", behind="drop_unused"),
     Placed(roomy_texts, "storage", behind="one_spelling"),
     Placed(signals_by_name, "storage", behind="one_spelling"),
+    Placed(inline_forms, "storage", behind="place_made_statements"),
 )

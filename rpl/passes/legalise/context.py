@@ -86,7 +86,8 @@ class Context:
     `before`: the reports that were there in front of the passes. `unreached`: places to which the arm that runs the
     result does not come, by where they stand in the source; `flanges`: where it has to come, as far as that is known,
     4x4 in mm, in the arm's base. `there`: what stands on the robot that will run it. `unknown`: data, folded, that the
-    source's controller keeps and whose value stands in no file; its zero is nothing to begin with."""
+    source's controller keeps and whose value stands in no file; its zero is nothing to begin with. `renamed`: data that
+    passes have given another name, as the target's people name it: name before the passes -> name."""
 
     source: str
     target: str
@@ -107,6 +108,7 @@ class Context:
     flanges: list[Any] = field(default_factory=list)
     there: Standing = NOTHING
     unknown: set[str] = field(default_factory=set)
+    renamed: dict[str, str] = field(default_factory=dict)
 
     @property
     def foreign(self) -> bool:
