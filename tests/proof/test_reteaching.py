@@ -10,11 +10,12 @@ from pathlib import Path
 import pytest
 from there_and_back import Journey, there_and_back
 
+from rpl.cell import read_cell
 from rpl.cli.main import run
 from rpl.diagnostics import Diagnostics
 from rpl.project import ReadProgram, read_sources
 from rpl.proof.prove import prove_programs
-from rpl.proof.teaching.data import Taught, taught_data, with_taught
+from rpl.proof.teaching.data import Datum, Taught, taught_data, with_taught
 from rpl.proof.teaching.moving import Amount
 from rpl.proof.teaching.outcome import Retaught
 from rpl.proof.teaching.pairs import Given, given_by, paired
@@ -149,6 +150,45 @@ def test_a_point_that_two_programs_keep_is_named() -> None:
     assert found.pop("pPick") == "copied" and set(found.values()) == {"holds"}
     assert result.taught is not None and "pPick: 2 copies, MAIN.P" in result.as_text()
     assert result.verdict == "alike" and not result.taught.holds
+
+
+def test_points_of_one_name_and_value_belong_to_the_program_that_is_called_alike() -> None:
+    """Two jobs of the source have a point `chuck` each; so have the modules of the output."""
+    (datum,) = [one for one in taught_data(read({"m.mod": RAPID}, "rapid").program) if one.name == "pPick"]
+
+    def kept(name: str, label: str, routine: str, file: str) -> Datum:
+        place = replace(datum.place, file=file)
+        return replace(datum, name=name, variable=name, label=label, routine=routine, place=place)
+
+    here = [kept("P2", "chuck", "EMPTY", "empty.ls"), kept("P3", "chuck", "FILL", "fill.ls")]
+    there = [kept("chuck", "", "", "FILLModule.mod"), kept("chuck", "", "", "EMPTYModule.mod")]
+    found = paired(here, there)
+    assert [[copy.datum for copy in found[one]] for one in here] == [[there[1]], [there[0]]]
+    again = [kept("C7", "", "FILL", "fill.jbi")]  # says nothing but its value
+    assert [len(copies) for copies in paired(here, [*there, *again]).values()] == [1, 2]
+
+
+def test_a_value_of_the_cell_that_the_output_says_itself_does_not_hide_what_is_taught(tmp_path: Path) -> None:
+    """Both programs are run in one cell; a tool that the source leaves to its controller is data of the output, under
+    the same name."""
+    program = KRL["main.src"].replace("$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}", "$TOOL=Grip")
+    left, said = ("DECL FRAME Grip", "DECL CONST FRAME Grip={X 0,Y 0,Z 150,A 0,B 0,C 0}")
+    ours, theirs = (
+        read({"main.src": program, "main.dat": KRL["main.dat"].replace("ENDDAT", f"{line}\nENDDAT")}, "krl").program
+        for line in (left, said)
+    )
+    cell = tmp_path / "cell.toml"
+    cell.write_text("[variables]\nGrip = { x = 0.0, y = 0.0, z = 150.0, a = 0.0, b = 0.0, c = 0.0 }\n", "utf-8")
+    result = prove_programs(ours, theirs, ARMS["krl"], cell=read_cell(str(cell)), teaching=Teaching())
+    assert states(result)["Grip"] == "holds", result.as_text()
+
+
+def test_a_frame_that_begins_at_nothing_and_that_the_program_fills_is_not_taught() -> None:
+    filled = '  PERS wobjdata wobjRun:=[FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n  PROC main()\n'
+    text = RAPID.replace(
+        "  PROC main()\n", filled + "    wobjRun.uframe.trans.x:=20;\n    wobjRun.oframe:=wobjJig.oframe;\n"
+    )
+    assert "wobjRun" not in {one.name for one in taught_data(read({"m.mod": text}, "rapid").program)}
 
 
 # what is changed in the program that is compared with the RAPID one, and what of it does not hold any more

@@ -63,7 +63,8 @@ def paired(
     for other in left:
         same = [one for one in ours if same_value(one, other) and not _is_nothing(other)]
         without = [one for one in same if not found[one]]
-        chosen = same if len(same) == 1 else without if len(without) == 1 else []
+        at_home = [one for one in same if _at_home(one, other)]
+        chosen = next((some for some in (same, at_home, without) if len(some) == 1), [])
         for one in chosen:
             found[one].append(Copy(other, BY_VALUE))
         alone += [other] if not same else []
