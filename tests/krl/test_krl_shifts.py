@@ -65,8 +65,7 @@ def test_equal_shifts_share_a_frame() -> None:
 FUNCTIONS = [
     ("MoveL Offs(p,0,0,way),v500,fine,tool0;", "LIN rpl_offset(p,0,0,way)"),  # `way` may change
     ("MoveL RelTool(p,0,0,-50\\Rz:=10),v500,fine,tool0;", "LIN rpl_tool_offset(p,"),  # it turns
-    ("MoveJ Offs(p,0,0,-50),v500,fine,tool0;", "PTP rpl_offset(p,"),  # a product names no posture
-    ("MoveJ RelTool(p,0,0,-50),v500,fine,tool0;", "PTP rpl_tool_offset(p,"),
+    ("MoveJ RelTool(p,0,0,-50),v500,fine,tool0;", "PTP rpl_tool_offset(p,"),  # a product names no posture
 ]
 
 
@@ -74,6 +73,14 @@ FUNCTIONS = [
 def test_what_a_frame_cannot_say_is_a_function(lines: str, move: str) -> None:
     journey = rapid(lines)
     assert move in journey.text and "shift_" not in journey.text, journey.text
+    proved(journey)
+
+
+def test_a_joint_move_goes_to_a_place_with_other_components() -> None:
+    journey = rapid("MoveJ Offs(p,0,0,-50),v500,fine,tool0;")
+    lines = [line.strip() for line in journey.text.splitlines()]
+    at = lines.index("p_moved=p")
+    assert lines[at + 1 : at + 3] == ["p_moved.Z=p.Z-50", "PTP p_moved"] and "rpl_" not in journey.text, journey.text
     proved(journey)
 
 

@@ -50,7 +50,7 @@ UNSURE = {
     [
         ("rapid", ["MoveL Offs(C00000,P010.trans.x,P010.trans.y,P010.trans.z),v200,fine,TL0\\WObj:=UF2;"]),
         ("tp", ["L P[1:C00000] 200mm/sec FINE Offset,PR[1:P010]", "L P[2:C00001] 200mm/sec FINE Offset,PR[1:P010]"]),
-        ("krl", ["$BASE=BASE_DATA[2]:rpl_pose_of(P010)"]),
+        ("krl", ["$BASE=BASE_DATA[2]:P010", "FRAME P010="]),
         ("vplus", [":p010"]),
     ],
 )

@@ -16,10 +16,12 @@ from .searches import searches
 from .shifts import said_shifts
 from .signalnames import signals_by_name
 from .startbases import start_bases
+from .ways import ways_as_frames
 from .writestates import states_of_writes
 
 PASSES: tuple[Placed, ...] = (
     Placed(changed_places, "source", behind="whole_settings"),
+    Placed(ways_as_frames, "source", before="elementwise"),
     Placed(searches, "searches", before="search_parts"),
     Placed(held_motion, "interrupts", behind="stored_paths"),
     Placed(name_groups, "io", behind="number_signals"),

@@ -12,7 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.fold import constant
+from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
@@ -50,11 +50,23 @@ def changed_places(program: ir.Program, context: Context) -> ir.Program:
             if not isinstance(type_of(one.target, scope), ir.TargetType) or not _stale(one.target, changed, scope):
                 return one
             context.diagnostics.report(FLAGS_LEFT_OUT, one.origin)
-            return replace(one, target=ir.Builtin("pose_of", (one.target,), origin=one.target.origin))
+            return replace(one, target=_without_flags(one.target, scope))
 
         return edit_bodies(routine, body)
 
     return edit_each(program, lambda module, one: work(one, scopes.routine(module, one)))
+
+
+def _without_flags(target: ir.Expression, scope: Scope) -> ir.Expression:
+    """The place alone; of a place that a constant way moves, the way in front of it, as a product has no flags."""
+    match target:
+        case ir.Builtin(function="offset", arguments=(ir.Name() as base, *way)):
+            numbers = [constant_number(one, scope) for one in way]
+            if None not in numbers and len(numbers) == 3:
+                values = (*(one or 0.0 for one in numbers), 0.0, 0.0, 0.0)
+                entries = tuple((part, ir.RealLiteral(one)) for part, one in zip(ir.POSE, values, strict=True))
+                return ir.Binary(":", ir.Aggregate(entries, "pose"), base, origin=target.origin)
+    return ir.Builtin("pose_of", (target,), origin=target.origin)
 
 
 def _stale(target: ir.Expression, changed: frozenset[str], scope: Scope) -> bool:

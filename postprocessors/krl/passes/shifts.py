@@ -1,6 +1,7 @@
 """Shifts of places as people write them in KRL, which has no function for them: a constant one is a frame of the data
 list in front of the place (`LIN shift_z100:XPick`; behind it where it goes along the tool), a computed one is the place
-with other components (`Box=XCorner`, `Box.X=XCorner.X+...`).
+with other components (`Box=XCorner`, `Box.X=XCorner.X+...`). A product of frames has no arm configuration, so a joint
+move that asks for one goes to such a place as well.
 """
 
 from __future__ import annotations
@@ -28,11 +29,12 @@ _PARTS = ("x", "y", "z")
 @legalising(sees=("function offset", "function tool_offset"))
 def said_shifts(program: ir.Program, context: Context) -> ir.Program:
     """What is neither stays a function."""
-    worker, scopes = _Shifts(ShiftFrames(context), has_external_axes(program)), ProgramScope(program)
+    worker, scopes = _Shifts(context, has_external_axes(program)), ProgramScope(program)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
-        worker.scope = scopes.routine(module, routine)
-        return edit_bodies(routine, worker.body)
+        worker.enter(scopes.routine(module, routine))
+        done = edit_bodies(routine, worker.body)
+        return replace(done, declarations=(*done.declarations, *worker.moved.values()))
 
     done = edit_each(program, work)
     return with_data(done, worker.shifts.declared()) if worker.shifts.names else done
@@ -40,9 +42,19 @@ def said_shifts(program: ir.Program, context: Context) -> ir.Program:
 
 @dataclass(slots=True)
 class _Shifts:
-    shifts: ShiftFrames
+    """`moved`: the variables of the present routine for places with other components, by the name of the place."""
+
+    context: Context
     external: bool
+    shifts: ShiftFrames = field(init=False)
     scope: Scope = field(init=False)
+    moved: dict[str, ir.Variable] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.shifts = ShiftFrames(self.context)
+
+    def enter(self, scope: Scope) -> None:
+        self.scope, self.moved = scope, {}
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -56,6 +68,19 @@ class _Shifts:
                 return self.in_parts(statement, target, base, shift)
             case ir.Move(relative=None, target=ir.Builtin() as target) if self.needs_pose_alone(statement.kind, target):
                 statement = replace(statement, target=self.in_front(target))
+            case ir.Move(
+                kind="joint",
+                relative=None,
+                target=ir.Builtin(function="offset", arguments=(ir.Name() as base, *shift)),
+            ) if not any(isinstance(node, ir.Call) for node in walk(*shift)):
+                place, later = self.moved_place(base), replace(statement.origin, comments=())
+                first = ir.Assign(place, base, origin=statement.origin)
+                return *self.in_parts(first, place, base, shift), replace(statement, target=place, origin=later)
+            case ir.Move(target=ir.Binary(op=":", left=ir.Aggregate() as way, right=ir.Name()) as target):
+                values = [constant_number(one, self.scope) for _, one in way.entries]
+                if None not in values and not any(values[3:]):
+                    frame = self.shifts.frame([one or 0.0 for one in values[:3]])
+                    statement = replace(statement, target=replace(target, left=frame))
         return (rewrite_bodies(statement, self.body),)
 
     def can_be_parts(self, name: str, base: ir.Name, shift: list[ir.Expression]) -> bool:
@@ -82,6 +107,14 @@ class _Shifts:
                 value = added(ir.Field(base, part), distance)
                 done.append(ir.Assign(ir.Field(target, part), value, origin=later))
         return tuple(done)
+
+    def moved_place(self, base: ir.Name) -> ir.Name:
+        """The routine's variable for a place beside this one."""
+        key = base.id.lower()
+        if key not in self.moved:
+            name = self.context.fresh(f"{base.id}_moved")
+            self.moved[key] = ir.Variable(name, type_of(base, self.scope) or ir.PoseType(), scope="routine")
+        return ir.Name(self.moved[key].name)
 
     def needs_pose_alone(self, kind: str, shifted: ir.Builtin) -> bool:
         """Does a move there ask for nothing that a product of frames lacks?"""

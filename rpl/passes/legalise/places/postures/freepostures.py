@@ -111,10 +111,12 @@ class _Free(Rewriter):
         return super().statement(statement)
 
     def is_free(self, move: ir.Move) -> bool:
-        """A pose, or a target that is known to have no flags; one whose posture is asked for is not."""
+        """A pose, a product of places, which has no flags, or a target that is known to have none; one whose posture is
+        asked for is not."""
         if any(isinstance(one, ir.System) and one.name.startswith("posture_") for one, _ in move.settings):
             return False
-        if isinstance(self.type_of(move.target), ir.PoseType):
+        product = isinstance(move.target, ir.Binary) and move.target.op == ":"
+        if product or isinstance(self.type_of(move.target), ir.PoseType):
             return True
         goal = constant(move.target, self.scope, self.unchanged)
         return isinstance(goal, Target) and all(value is None for _, value in goal.flags)
