@@ -18,7 +18,7 @@ from rpl.writing.templates import Macros
 from . import tables
 from .declarations import constant, elements
 from .expressions import Expressions
-from .forms.written import LENGTH, form_words, is_initialising
+from .forms.written import MOST, form_words, is_initialising
 from .motion import Motion
 from .settings import assigned, assignment, coupled, percent_text, speed_of_axes, whole_structure
 
@@ -107,7 +107,7 @@ class Printer(StatementPrinter[str]):
         """`$VEL=f()` stands for an assignment to each component, `BAS(#VEL_PTP,n)` for one to each axis: written as the
         one it was. Counts the statements. body: as many as the largest structure has, or all that are left."""
         first = body[0]
-        if self.frames is not None and (count := self.form(body[:LENGTH], self.frames)):
+        if self.frames is not None and (count := self.form(body[:MOST], self.frames)):
             return count
         if not (isinstance(first, ir.Assign) and isinstance(first.target, ir.System)):
             return 0
@@ -147,11 +147,12 @@ class Printer(StatementPrinter[str]):
         if is_initialising(first):
             self.folded((first,), lambda line: self.say("ini", call=line))
             return 1
-        words = form_words(body, self.scope, frames)
-        if words is None:
+        found = form_words(body, self.scope, frames)
+        if found is None:
             return 0
-        self.folded(body, lambda *lines: self.say("form", lines=lines, speed=_given(lines[3]), **words))
-        return LENGTH
+        words, count = found
+        self.folded(body[:count], lambda *lines: self.say("form", lines=lines, speed=_given(lines[3]), **words))
+        return count
 
     def folded(self, body: ir.Body, shown: Callable[..., str]) -> None:
         origin = body[0].origin

@@ -29,6 +29,7 @@ LOST_DECLARATION = code(
 LOST_HANDLER = code("krl-lost-handler", Severity.LOSS, "KRL has no error handlers; the one of {name} is left out", "")
 
 _TABLES = "For the tables of the controller's own $config.dat"
+_HEADS = ("ACCESS RVP", "REL 1")
 _KRL_FILES = (".src", ".dat", ".sub")
 
 
@@ -67,6 +68,8 @@ class _Module:
         self.ledger.written(module)
         found = []
         program, data = self.attributes()
+        if module.routines and self.has_forms():  # the pendant asks for the rights to open them
+            program, data = program or list(_HEADS), data or list(_HEADS)
         lines = self.data_lines()
         if module.routines:
             fits = self.named_after_module()
@@ -85,6 +88,12 @@ class _Module:
             text = self.say("data", attributes=data, name=module.name, public=public, lines=lines)
             found.append(_file(f"{module.name}.dat", text))
         return found
+
+    def has_forms(self) -> bool:
+        """Has the data list any data of inline forms, of a program from another language?"""
+        types = (one.type for one in self.module.declarations if isinstance(one, ir.Variable))
+        named = (one.name.upper() for one in types if isinstance(one, ir.NamedType))
+        return self.frames is not None and not self.is_config and any(name in tables.FORM_TYPES for name in named)
 
     def attributes(self) -> tuple[list[str], list[str]]:
         """File attributes of the program and of the data list; other languages' attributes have no place here, though

@@ -31,6 +31,18 @@ def point_name(name: str, taken: Collection[str]) -> str | None:
 
 _MOST = 24  # signs of a name
 _HOME = "xhome"
+HOME_DATA = "PDEFAULT"
+
+
+def is_home(point: ir.Variable) -> bool:
+    """Is it named as the home position, which has its FDAT (flange, robot's own base) in every $config.dat?"""
+    return point.name.lower() == _HOME and isinstance(point.type, ir.JointsType)
+
+
+def fits_home(form: Form, size: float | None) -> bool:
+    """Does the form say what PDEFAULT says, with FHOME? size: of a corner that must stay."""
+    usual = form.acceleration == 100.0 and form.corner == "blend_joint" and form.size is None and size is None
+    return form.joint and (form.tool, form.base) == (0, 0) and usual
 
 
 def frame_data(point: ir.Variable, tool: int, base: int) -> ir.Variable:
@@ -94,15 +106,17 @@ def touchable(point: ir.Variable, own: bool) -> ir.Variable:
 
 
 def parts_of(move: ir.Move, form: Form, data: str, point: str) -> ir.Body:
-    """The statements of a form."""
+    """The statements of a form. data: of the move; the one of HOME also says that this is the home position."""
     here, later = move.origin, replace(move.origin, comments=())
     acting, command = ("PDAT_ACT", "PTP_PARAMS") if form.joint else ("LDAT_ACT", "CP_PARAMS")
     speed = ir.IntLiteral(int(form.speed)) if form.speed == int(form.speed) else ir.RealLiteral(form.speed)
+    home = (ir.Assign(ir.Name("$H_POS"), ir.Name(point), origin=later),) if data == HOME_DATA else ()
     return (
         ir.Assign(ir.Name("$BWDSTART"), ir.BoolLiteral(False), origin=here),
         ir.Assign(ir.Name(acting), ir.Name(data), origin=later),
         ir.Assign(ir.Name("FDAT_ACT"), ir.Name(f"F{point[1:]}"), origin=later),
         ir.CallRoutine("BAS", (ir.Argument(ir.EnumLiteral(command)), ir.Argument(speed)), origin=later),
+        *home,
         replace(move, target=ir.Name(point), origin=later),
     )
 
@@ -112,4 +126,15 @@ def initialising() -> ir.CallRoutine:
     return ir.CallRoutine("BAS", (ir.Argument(ir.EnumLiteral("INITMOV")), ir.Argument(ir.IntLiteral(0))))
 
 
-__all__ = ["Numbering", "frame_data", "initialising", "motion_data", "parts_of", "point_name", "touchable"]
+__all__ = [
+    "HOME_DATA",
+    "Numbering",
+    "fits_home",
+    "frame_data",
+    "initialising",
+    "is_home",
+    "motion_data",
+    "parts_of",
+    "point_name",
+    "touchable",
+]

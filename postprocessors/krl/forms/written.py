@@ -14,7 +14,7 @@ from rpl.passes.scope import Scope
 from .. import tables
 from .moves import number_of
 
-LENGTH = 5  # statements of the form of a move
+MOST = 6  # statements of the form of a move, with the home position
 _ACTING = {"PDAT_ACT": ("PTP", "PTP_PARAMS", "P"), "LDAT_ACT": ("LIN", "CP_PARAMS", "L")}
 _CORNERS = {"blend_joint": "C_PTP", "blend_distance": "C_DIS"}
 
@@ -29,8 +29,18 @@ def is_initialising(statement: ir.Statement) -> bool:
     return False
 
 
-def form_words(body: ir.Body, scope: Scope, names: Mapping[tuple[str, int], str]) -> Words | None:
-    """What the fold of a form says whose statements these are; None: they are none. names: of tools and bases."""
+def form_words(body: ir.Body, scope: Scope, names: Mapping[tuple[str, int], str]) -> tuple[Words, int] | None:
+    """What the fold of a form says that begins with this body, and how many statements are the form's; None: none does.
+    names: of tools and bases."""
+    match body[:MOST]:
+        case (*parts, ir.Assign(target=ir.Name(id="$H_POS")), move):
+            words = _words((*parts, move), scope, names)
+            return None if words is None else (words | {"tool": "", "base": ""}, MOST)
+    words = _words(body[: MOST - 1], scope, names)
+    return None if words is None else (words, MOST - 1)
+
+
+def _words(body: ir.Body, scope: Scope, names: Mapping[tuple[str, int], str]) -> Words | None:
     match body:
         case (
             ir.Assign(target=ir.Name(id="$BWDSTART")),
@@ -40,10 +50,9 @@ def form_words(body: ir.Body, scope: Scope, names: Mapping[tuple[str, int], str]
             ir.Move(target=ir.Name(id=point), blend=blend),
         ) if acting in _ACTING:
             word, wanted, prefix = _ACTING[acting]
-            speed = number_of(given.value)
             tool, base = _number(frames, "TOOL_NO", scope), _number(frames, "BASE_NO", scope)
             fits = command == wanted and data[:1].upper() == prefix and point[:1].upper() == "X"
-            if not fits or frames[1:].lower() != point[1:].lower() or None in (speed, tool, base):
+            if not fits or frames[1:].lower() != point[1:].lower() or None in (number_of(given.value), tool, base):
                 return None
             return {
                 "word": word,
@@ -83,4 +92,4 @@ def _number(frames: str, part: str, scope: Scope) -> int | None:
     return None
 
 
-__all__ = ["LENGTH", "form_words", "is_initialising"]
+__all__ = ["MOST", "form_words", "is_initialising"]

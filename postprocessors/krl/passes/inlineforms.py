@@ -27,7 +27,18 @@ from rpl.source import Comment, Origin
 from rpl.writing.names import renamed_as
 
 from .. import tables
-from ..forms.data import Numbering, frame_data, initialising, motion_data, parts_of, point_name, touchable
+from ..forms.data import (
+    HOME_DATA,
+    Numbering,
+    fits_home,
+    frame_data,
+    initialising,
+    is_home,
+    motion_data,
+    parts_of,
+    point_name,
+    touchable,
+)
 from ..forms.moves import INITMOV, Form, form_of, is_plain, number_of
 from ..forms.wanted import SETTINGS, Wanted, is_wanted
 
@@ -209,6 +220,7 @@ def _of_one_frame(candidates: Iterator[Candidate]) -> dict[int, Candidate]:
     for one in found:
         uses.setdefault(id(one.point), Counter())[one.frames] += 1
     own = {key: max(counted, key=lambda frames: counted[frames]) for key, counted in uses.items()}
+    own |= {id(one.point): (0, 0) for one in found if is_home(one.point)}
     return {id(one.move): one for one in found if own[id(one.point)] == one.frames}
 
 
@@ -241,7 +253,8 @@ def _written(
         for one in module.declarations:
             if isinstance(one, ir.Variable) and id(one) in frames:
                 point = touchable(replace(one, name=names[id(one)]), one.name.lower() not in shared)
-                declared += [replace(point, name=one.name), frame_data(point, *frames[id(one)])]
+                declared.append(replace(point, name=one.name))
+                declared += [] if is_home(one) else [frame_data(point, *frames[id(one)])]
             else:
                 declared.append(one)
         context.taken.update(each.name.lower() for each in work.data)
@@ -328,12 +341,14 @@ class _Forms:
         one = self.found.get(id(statement))
         if one is None:
             return (rewrite_bodies(statement, self.body),)
-        data = self.numbering.next(one.form)
-        size = one.form.size
+        size, point = one.form.size, self.names[id(one.point)]
         if size is None and is_wanted(self.wanted.behind, one.move, {one.form.corner}):
             size = number_of(one.state.get(one.form.corner))
+        if is_home(one.point) and fits_home(one.form, size):
+            return parts_of(one.move, one.form, HOME_DATA, point)
+        data = self.numbering.next(one.form)
         self.data.append(motion_data(data, one.form, size))
-        return parts_of(one.move, one.form, data, self.names[id(one.point)])
+        return parts_of(one.move, one.form, data, point)
 
     def is_idle(self, statement: ir.Statement) -> bool:
         """Is it a setting that nothing asks for: forms set it themselves, or INITMOV has set it?"""
