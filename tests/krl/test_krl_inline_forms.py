@@ -71,13 +71,13 @@ def test_a_move_to_a_taught_point_is_a_form(line: str, fold: str) -> None:
     ],
 )
 def test_what_a_form_cannot_say_stays_an_expert_line(line: str) -> None:
-    files, _ = written(f"    pSet.trans.z:=310;\n    nFast:=nFast+1;\n{ALSO}    {line}\n")
-    assert [fold.split()[2] for fold in folds(files["cell.src"])] == ["top"]
+    files, _ = written(f"    pSet.trans.z:=310;\n    nFast:=nFast+1;\n{ALSO * 3}    {line}\n")
+    assert [fold.split()[2] for fold in folds(files["cell.src"])] == ["top"] * 3
 
 
 def test_a_program_of_computed_places_stays_an_expert_program() -> None:
     beside = "    MoveL Offs(pPick,0,0,nFast),v200,fine,tGrip\\WObj:=wobjTray;\n"
-    files, done = written(f"    nFast:=nFast+1;\n{ALSO}{beside}{beside}")
+    files, done = written(f"    nFast:=nFast+1;\n{ALSO * 5}{beside * 2}")
     assert not folds(files["cell.src"]) and "INITMOV" not in files["cell.src"] and "&ACCESS" not in files["cell.src"]
     assert "DECL FDAT" not in files["cell.dat"] and done.map.names["pPick"] == "pPick"
 

@@ -1,8 +1,9 @@
 """Moves to taught points as inline forms, which the pendant opens and touches up, in programs where that is natural.
 
-At least half of the moves of a program must go to taught points with constant settings: then all of those are forms,
-and the rest stays as it is. A form sets what is in force where it stands; settings that stood in front of it for its
-sake alone are left out. Counted in public programs: half of all moves are forms, nine of ten go to points X....
+At least half of the moves of a program must go to taught points with constant settings, and three times as many as go
+to places that the run works out: then all of those are forms, and the rest stays as it is. A form sets what is in force
+where it stands; settings that stood in front of it for its sake alone are left out. Counted in public programs: half of
+all moves are forms, nine of ten go to points X....
 """
 
 from __future__ import annotations
@@ -58,6 +59,11 @@ _AXES = tuple((ir.IntLiteral(number),) for number in range(1, 7))
 _ARC = "circle_orientation"
 
 
+# Programs that work out where they go (pallets) are written in expert lines: so many forms there must be for each such
+# move that they are written all the same.
+FORMS_PER_COMPUTED = 3
+
+
 @dataclass(frozen=True, slots=True)
 class Candidate:
     """A move that may be a form, its point as declared, and what is in force there."""
@@ -87,7 +93,9 @@ def inline_forms(program: ir.Program, context: Context) -> ir.Program:
     if any(_rests_on_start(move, flow.at(move), start) for move in moves):
         return program
     found = _of_one_frame(_candidates(program, foreground, flow))
-    while _enough(len(found), moves):
+    assigned = usage_of(_without_values(program)).assigned
+    computed = sum(not flow.never_comes_to(move) and _by_run(move, flow.at(move), assigned) for move in moves)
+    while _enough(len(found), moves) and len(found) >= FORMS_PER_COMPUTED * computed:
         wanted = Wanted.of(program, {key: one.form for key, one in found.items()})
         kept = {key: one for key, one in found.items() if not _disturbs(one, wanted)}
         if len(kept) == len(found):
@@ -98,6 +106,12 @@ def inline_forms(program: ir.Program, context: Context) -> ir.Program:
 
 def _enough(count: int, moves: list[ir.Move]) -> bool:
     return count > 0 and 2 * count >= len(moves)
+
+
+def _by_run(move: ir.Move, state: Mapping[str, ir.Expression | None], assigned: set[str]) -> bool:
+    """Does the run decide where the move goes: is its place or its frame one that the program works out?"""
+    names = {node.id.lower() for node in walk(move.target) if isinstance(node, ir.Name)}
+    return bool(names & assigned) or state.get("base") is None
 
 
 def _foreground(program: ir.Program) -> list[ir.Module]:
