@@ -9,7 +9,7 @@ from rpl.passes.rewrite import rewrite_parts
 from rpl.writing.statements import CannotSayError
 
 from . import tables
-from .operands import Registers, bank_of, constant, element, is_digital, operand, signal, simple, variable
+from .operands import Registers, bank_of, constant, element, is_digital, numbered, operand, signal, simple, variable
 from .positions import Positions, rounded
 
 
@@ -338,7 +338,23 @@ class Assignments:
             real = self.registers.helper("R")
             self.number(real, term)
             self.lines.append(f"MUL {real} {float(factor)!r}")
-            self.lines.extend(rounded(real, whole))
+            exact = factor == int(factor) and self.is_whole(term)
+            self.lines.extend([f"SET {whole} {real}"] if exact else rounded(real, whole))
+
+    def is_whole(self, term: ir.Expression) -> bool:
+        """Is it a whole number in any case?"""
+        known = constant(term)
+        if known is not None:
+            return float(known).is_integer()
+        match term:
+            case ir.Binary(op="+" | "-" | "*", left=left, right=right):
+                return self.is_whole(left) and self.is_whole(right)
+            case ir.Convert(how="real", operand=operand) | ir.Unary(op="-" | "+", operand=operand):
+                return self.is_whole(operand)
+        place = numbered(term)
+        return place is not None and (
+            place[0] in tables.WHOLE or (place[0] == "R" and place[1] in self.registers.set_whole)
+        )
 
 
 def summands(value: ir.Expression, sign: int = 1) -> list[tuple[int, ir.Expression]]:

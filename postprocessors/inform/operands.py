@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from rpl import ir
+from rpl.ir.walk import walk
 from rpl.passes.rewrite import rewrite_parts
 from rpl.writing.refusals import UNDECLARED_PLACE
 from rpl.writing.statements import CannotSayError
@@ -22,18 +23,56 @@ _KNOWN = re.compile(r"(?P<word>SIN|SOUT|EXIN|EXOUT|IU|OU|AX|RIN)#?\(?(?P<number>
 
 
 @dataclass(slots=True)
+class _Settings:
+    """What sets the R variables, statement by statement."""
+
+    whole: set[int] = field(default_factory=set)
+    otherwise: set[int] = field(default_factory=set)
+    any: bool = False  # an element is set that the run chooses
+
+    def statement(self, statement: ir.Statement) -> None:
+        match statement:
+            case ir.Assign(target=target, value=value):
+                place = numbered(target)
+                self.any |= place is None and isinstance(target, ir.Index) and target.base == ir.Name("R")
+                if place is not None and place[0] == "R":
+                    (self.whole if _is_whole(value) else self.otherwise).add(place[1])
+            case ir.For(counter=counter):
+                self.otherwise |= _reals(ir.Name(counter))
+            case ir.If() | ir.While() | ir.Repeat() | ir.Loop() | ir.Switch() | ir.Wait() | ir.Pulse():
+                pass  # what is in them is looked at by itself
+            case _:
+                self.otherwise |= _reals(statement)
+
+    def only_whole(self) -> frozenset[int]:
+        return frozenset() if self.any else frozenset(self.whole - self.otherwise)
+
+
+def _is_whole(value: ir.Expression) -> bool:
+    known = constant(value)
+    return known is not None and float(known).is_integer()
+
+
+def _reals(node: object) -> set[int]:
+    """The numbers of all R variables that are named in it."""
+    places = (numbered(one) for one in walk(node) if isinstance(one, ir.Index | ir.Name))
+    return {place[1] for place in places if place is not None and place[0] == "R"}
+
+
+@dataclass(slots=True)
 class Registers:
     """Which numbers of the banks are taken in the whole program."""
 
     used: dict[str, set[int]] = field(default_factory=dict)
     helpers: dict[tuple[str, ...], list[str]] = field(default_factory=dict)
     in_use: dict[tuple[str, ...], int] = field(default_factory=dict)
+    set_whole: frozenset[int] = frozenset()  # numbers of R variables that are never set to anything but whole constants
     jobs: str = ""  # which jobs that run beside each other the lines at hand belong to; each have their own helpers
 
     @classmethod
     def of(cls, program: ir.Program, named: Iterable[tuple[str, int]] = ()) -> Registers:
         """`named`: numbers that stand for data of the source; elements chosen at run time are named nowhere else."""
-        found = cls()
+        found, settings = cls(), _Settings()
         for bank, number in named:
             found.used.setdefault(bank, set()).add(number)
 
@@ -41,10 +80,13 @@ class Registers:
             place = numbered(expression)
             if place is not None:
                 found.used.setdefault(place[0], set()).add(place[1])
+            if isinstance(expression, ir.Call):
+                settings.otherwise |= _reals(expression)
             return rewrite_parts(expression, look)
 
         def body(statements: ir.Body) -> ir.Body:
             for statement in statements:
+                settings.statement(statement)
                 if isinstance(statement, ir.For):
                     look(ir.Name(statement.counter))
                 rewrite_parts(statement, look, body)
@@ -54,10 +96,13 @@ class Registers:
             for declaration in module.declarations:
                 if isinstance(declaration, ir.Variable):
                     look(ir.Name(declaration.name))
+                    if declaration.initial is not None and not _is_whole(declaration.initial):
+                        settings.otherwise |= _reals(ir.Name(declaration.name))
                 elif isinstance(declaration, ir.Initialise):
                     body((declaration.assign,))
             for routine in module.routines:
                 body(routine.body)
+        found.set_whole = settings.only_whole()
         return found
 
     def take(self, bank: str) -> int:
