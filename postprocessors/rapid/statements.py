@@ -145,6 +145,11 @@ class Statements:
             case ir.If(branches=((condition, (ir.Goto() as jump,)),), otherwise=()) if not jump.origin.comments:
                 self.ledger.merged(jump)
                 return self.say("if_jump", condition=self.text(condition), name=jump.label)
+            case ir.If(branches=((condition, (ir.Return(value=None) as end,)),), otherwise=()) if (
+                not end.origin.comments
+            ):
+                self.ledger.merged(end)
+                return self.say("if_return", condition=self.text(condition))
             case ir.If(branches=branches, otherwise=otherwise):
                 conditions = [self.text(condition) for condition, _ in branches]
                 done = [(text, self.inner(body)) for text, (_, body) in zip(conditions, branches, strict=True)]

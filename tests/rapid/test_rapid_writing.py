@@ -396,3 +396,8 @@ def test_generated_programs_mean_the_same_when_written_anew(body: str) -> None:
     data = "VAR num a;\nVAR num b;\nVAR num c;\nVAR bool ok;\nVAR num g{2,2};\nVAR robtarget p;\n"
     program = normal(f"MODULE m\n{data}PROC main()\n{body}ENDPROC\nENDMODULE\n")
     assert without_remarks(read_back(program)) == without_remarks(program)
+
+
+def test_the_end_of_a_routine_behind_a_condition_is_one_line() -> None:
+    body = (ir.If(((ir.BoolLiteral(True), (ir.Return(),)),)), ir.Halt("stop"))
+    assert "IF TRUE RETURN;" in written(program_of(*body))[0]
