@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from there_and_back import there_and_back
+
 from rpl import ir
 from rpl.passes.legalise.statements.enums import enums_to_constants
 
@@ -83,3 +85,16 @@ def test_a_target_with_enumerations_keeps_them() -> None:
     program = read(PROGRAM, "krl")
     surroundings = context(program, "rapid")
     assert enums_to_constants(program, surroundings) is program
+
+
+def test_members_that_only_the_controllers_own_data_share_leave_no_constant() -> None:
+    """`BASE` belongs to two enumerations of what every KUKA controller declares."""
+    files = {
+        "main.src": "DEF main()\n  FDAT_ACT=FP1\n  BAS(#PTP_PARAMS,50)\n  PTP XP1\nEND\n",
+        "main.dat": (
+            "DEFDAT main\nDECL E6AXIS XP1={A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}\n"
+            'DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE,POINT2[] " ",TQ_STATE FALSE}\nENDDAT\n'
+        ),
+    }
+    journey = there_and_back(files, "krl", "rapid", "kuka_kr10r1100sixx")
+    assert "BASE" not in "".join(file.data.decode() for file in journey.written.files if file.path.endswith(".mod"))

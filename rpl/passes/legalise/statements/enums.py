@@ -20,10 +20,10 @@ from rpl.passes.rewrite import rewrite_parts
 def enums_to_constants(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without enumerations."""
     numbering = _Numbering()
-    for module in program.modules:
-        numbering.add(module.declarations)
+    for at, module in enumerate(program.modules):
+        numbering.add(module.declarations, at)
         for routine in module.routines:
-            numbering.add(routine.declarations)
+            numbering.add(routine.declarations, at)
     if not numbering.enums:
         return program
     numbering.settle()
@@ -36,14 +36,16 @@ def enums_to_constants(program: ir.Program, context: Context) -> ir.Program:
 
 @dataclass(slots=True)
 class _Numbering:
-    """The numbers of all members, folded; `shared` belong to several enumerations."""
+    """The numbers of all members, folded; `shared` belong to several enumerations. `homes`: the module, counted from
+    0, that declares a member first."""
 
     enums: list[ir.EnumDeclaration] = field(default_factory=list)
     written: dict[str, str] = field(default_factory=dict)
     shared: set[str] = field(default_factory=set)
     numbers: dict[str, int] = field(default_factory=dict)
+    homes: dict[str, int] = field(default_factory=dict)
 
-    def add(self, declarations: tuple[ir.Declaration, ...]) -> None:
+    def add(self, declarations: tuple[ir.Declaration, ...], module: int) -> None:
         for one in declarations:
             if isinstance(one, ir.EnumDeclaration):
                 self.enums.append(one)
@@ -52,6 +54,7 @@ class _Numbering:
                     if key in self.written:
                         self.shared.add(key)
                     self.written.setdefault(key, member)
+                    self.homes.setdefault(key, module)
 
     def settle(self) -> None:
         """By position in the enumeration; where shared members would collide, all are numbered through."""
@@ -76,14 +79,13 @@ class _Enums(Rewriter):
 
     def program(self) -> ir.Program:
         done = super().program()
-        shared = [key for key in self.numbering.shared if key in self.used]
-        if not shared:
-            return done
-        first = done.modules[0]
-        constants = tuple(self.constant(key, "global", ir.Nothing()) for key in sorted(shared))
-        return replace(
-            done, modules=(replace(first, declarations=(*constants, *first.declarations)), *done.modules[1:])
-        )
+        shared = sorted(key for key in self.numbering.shared if key in self.used)
+        modules = list(done.modules)
+        for key in reversed(shared):  # each in front of the others
+            at = self.numbering.homes[key]
+            constant = self.constant(key, "global", ir.Nothing())
+            modules[at] = replace(modules[at], declarations=(constant, *modules[at].declarations))
+        return replace(done, modules=tuple(modules))
 
     def type(self, type: ir.Type) -> ir.Type:
         if isinstance(type, ir.NamedType):
