@@ -18,9 +18,9 @@ ENDMODULE
 
 def test_declared_ones_keep_their_names_in_krl() -> None:
     text = there_and_back({"z.mod": MODULE}, "rapid", "krl").text
-    for line in ("$TOOL=TOOL_DATA[1]", "$BASE=BASE_DATA[1]", 'TOOL_NAME[1,]="tGrip"', 'BASE_NAME[1,]="wTable"'):
+    for line in ("DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,", 'TOOL_NAME[1,]="tGrip"', 'BASE_NAME[1,]="wTable"'):
         assert line in text
-    assert text.index("$TOOL=TOOL_DATA[1]") < text.index("$TOOL=$NULLFRAME")
+    assert text.index("FDAT_ACT=FP1") < text.index("$TOOL=$NULLFRAME")
 
 
 def test_declared_ones_are_set_by_name_in_urscript() -> None:
