@@ -10,6 +10,7 @@ from .errornumbers import error_numbers
 from .explicit import modal_to_explicit
 from .finestops import fine_stops
 from .fullzones import full_zones
+from .joinedmodules import joined_modules
 from .motiondata import named_motion_data
 from .offsets import points_offset
 from .placedata import places_as_targets
@@ -28,4 +29,5 @@ PASSES: tuple[Placed, ...] = (
     Placed(named_motion_data, "settings", behind="stand_first"),
     Placed(fine_stops, "settings", behind="stand_first"),
     Placed(name_errors, "storage", before="ahead_readings"),
+    Placed(joined_modules, "storage", behind="points_of_modules"),
 )
