@@ -125,15 +125,16 @@ def test_numbers_of_listings_are_those_of_tools_and_work_objects() -> None:
 def test_the_first_routine_is_main_and_no_module_is_called_like_a_routine() -> None:
     sources = [
         source_from_text("cell.src", "DEF cell()\nfetch()\nEND"),
-        source_from_text("fetch.src", "DEF fetch()\n$OUT[1]=TRUE\nEND"),
+        source_from_text("fetch.src", "DEF fetch()\n$OUT[1]=TRUE\nshut()\nEND\nDEF shut()\n$OUT[2]=TRUE\nEND"),
     ]
     read = read_sources(sources, "krl", Diagnostics())
     done = translate_program(read, "rapid", None, None, Diagnostics())
     text = "\n".join(file.data.decode() for file in done.files)
     assert done.renamed["cell"] == "main"
-    assert re.findall(r"^ *(?:MODULE|PROC) \w+", text, re.M) == [
+    assert re.findall(r"^ *(?:MODULE|(?:LOCAL )?PROC) \w+", text, re.M) == [
         "MODULE cell",
         "  PROC main",
         "MODULE fetchModule",
         "  PROC fetch",
+        "  LOCAL PROC shut",
     ]
