@@ -54,7 +54,9 @@ def test_the_corner_is_as_large_as_the_level_says(target: str) -> None:
     translation = translate_program(source, target, ARM, None, found)
     files = [source_from_bytes(one.path, one.data) for one in translation.files]
     theirs = times(read_sources(files, target, Diagnostics()).program)
-    assert theirs[1:] == pytest.approx(own[1:], abs=0.02)
+    slower = 500.0 / 2300.0 - 500.0 / 5000.0 if target == "krl" else 0.0  # inline forms begin and end at 2.3 m/s2
+    room = 0.06 if slower else 0.02  # in a corner the ramps of two moves overlap
+    assert theirs[1:] == pytest.approx([one + slower for one in own[1:]], abs=room)
     assert len({own[1], own[4], own[7]}) == 3
     assert "level-at-run-as-distance" in [item.code.name for item in found]
     assert not found.of(Severity.LOSS)

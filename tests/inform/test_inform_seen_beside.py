@@ -80,7 +80,6 @@ def test_a_background_program_sets_nothing_of_the_task_that_moves() -> None:
     texts = {"TEST.JBI": job(MAIN.format(y=0, z=0), POINTS), "SNAP.JBI": job(SNAP, "///TOOL 0", "SNAP")}
     read = read_sources([source_from_text(name, text) for name, text in texts.items()], "inform", Diagnostics())
     files = {one.path: one.data.decode() for one in translate_program(read, "krl", ARM, None, Diagnostics()).files}
-    assert "$ADVANCE" in files["TEST.src"] and "$" not in files["SNAP.src"].replace("$OUT", "").replace(
-        "$NULLFRAME", ""
-    )
+    assert "BAS(#INITMOV,0)" in files["TEST.src"] and "INITMOV" not in files["SNAP.src"]
+    assert "$" not in files["SNAP.src"].replace("$OUT", "").replace("$NULLFRAME", "")
     assert "$TOOL_C" in "".join(files.values()) and "$BASE_C" in "".join(files.values())  # M: those of the main run

@@ -39,7 +39,7 @@ def translated(target: str, *jobs: tuple[str, str]) -> tuple[str, Diagnostics]:
 
 CASES = {
     "rapid": ("PERS robtarget P007;", "MoveJ P007,", "MoveL C00000,"),
-    "krl": ("DECL GLOBAL E6POS P007", "PTP P007", "LIN C00000"),
+    "krl": ("DECL GLOBAL E6POS XP007", "PTP XP007", "LIN XC00000"),
     "tp": ("P007] 50%", "C00000] 100mm/sec"),
     "urscript": ("movej(P007,", "movel(C00000,"),
     "vplus": ("MOVE p007", "MOVES c00000"),

@@ -92,7 +92,7 @@ CHANGED = RAPID.replace("    MoveL", "    wobjBelt.uframe.trans.y:=-10;\n    Mov
 def test_a_frame_that_the_program_changes_stays_data() -> None:
     files, _ = krl("rapid", "cell.mod", CHANGED)
     assert "$BASE=wobjBelt.user_frame:wobjBelt.object_frame" in files["cell.src"]
-    assert any(line.startswith("DECL FDAT FA={TOOL_NO 1,BASE_NO 3,") for line in files["cell.dat"])
+    assert "$BASE=BASE_DATA[3]" in files["cell.src"]
 
 
 @pytest.mark.parametrize("name", ["tool_data", "base_name"])

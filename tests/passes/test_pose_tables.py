@@ -33,7 +33,7 @@ def translated(target: str, frame: int) -> str:
 
 # target, lines with frame 0 (the robot's own), lines with frame 2
 CASES = [
-    ("krl", ("$BASE=$NULLFRAME", "$TOOL=TOOL_DATA[1]"), ("$BASE=BASE_DATA[2]", "$TOOL=TOOL_DATA[1]")),
+    ("krl", ("FP1={TOOL_NO 1,BASE_NO 0,", "Tool[1]"), ("FP1={TOOL_NO 1,BASE_NO 2,", "Tool[1]")),
     ("rapid", ("MoveL P1,v100,fine,tool1;",), ("MoveL P1,v100,fine,tool1\\WObj:=wobj2;",)),
     ("urscript", ("set_tcp(tool1)", "movel(p1,"), ("set_tcp(tool1)", "movel(pose_trans(frame2, p1),")),
     ("vplus", ("TOOL tool1", "MOVES p1"), ("TOOL tool1", "MOVES frame2:p1")),

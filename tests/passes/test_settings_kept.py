@@ -7,15 +7,17 @@ from rpl.project import read_sources
 from rpl.source import source_from_text
 from rpl.translation import translate_program
 
+# What turns at a speed of its own is no inline form, which would say its tool itself.
 PROGRAM = """MODULE M
   PERS tooldata tGrip:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
   CONST robtarget pA:=[[400,0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   CONST robtarget pB:=[[400,50,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST speeddata vTurn:=[200,90,5000,1000];
   VAR num n:=0;
   PROC main()
-    MoveL pA,v200,fine,tGrip;
+    MoveL pA,vTurn,fine,tGrip;
     {between}
-    MoveL pB,v200,fine,tGrip;
+    MoveL pB,vTurn,fine,tGrip;
   ENDPROC
   PROC count()
     Incr n;
@@ -23,7 +25,7 @@ PROGRAM = """MODULE M
   ENDPROC
   PROC away()
     count;
-    MoveL pA,v100,fine,tool0;
+    MoveL pA,vTurn,fine,tool0;
   ENDPROC
 {other}ENDMODULE
 """

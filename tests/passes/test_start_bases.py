@@ -44,7 +44,6 @@ def lines(path: str, text: str, dialect: str, robot: str) -> list[str]:
 @pytest.mark.parametrize(
     ("path", "text", "dialect", "robot"),
     [
-        ("A.JBI", JOB % "BASE", "inform", "motoman_gp8"),
         ("p.script", SCRIPT, "urscript", "ur10e"),
         ("a.v2", STEPS, "vplus", "staubli_rx160"),
     ],
@@ -56,8 +55,17 @@ def test_the_base_is_said_once_before_the_first_move(path: str, text: str, diale
     assert found.index("$BASE=$NULLFRAME") < first
 
 
+@pytest.mark.parametrize(("kind", "number"), [("BASE", 0), ("USER\n///USER 1", 1)])
+def test_inline_forms_say_the_base_themselves(kind: str, number: int) -> None:
+    found = lines("A.JBI", JOB % kind, "inform", "motoman_gp8")
+    assert not [line for line in found if line.startswith("$BASE")]
+    frames = [line for line in found if "DECL" in line and " FDAT " in line]
+    assert len(frames) == 2 and all(f"BASE_NO {number}," in line for line in frames)
+
+
 def test_a_base_that_the_moves_name_is_theirs() -> None:
-    found = lines("A.JBI", JOB % "USER\n///USER 1", "inform", "motoman_gp8")
+    fast = JOB.replace("MOVJ P000 VJ=10.00\nMOVL P001 V=100.0", "MOVL P000 V=2500.0\nMOVL P001 V=2500.0")
+    found = lines("A.JBI", fast % "USER\n///USER 1", "inform", "motoman_gp8")
     assert [line for line in found if line.startswith("$BASE")] == ["$BASE=BASE_DATA[1]"]
 
 
