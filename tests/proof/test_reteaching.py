@@ -164,6 +164,9 @@ def test_points_of_one_name_and_value_belong_to_the_program_that_is_called_alike
     there = [kept("chuck", "", "", "FILLModule.mod"), kept("chuck", "", "", "EMPTYModule.mod")]
     found = paired(here, there)
     assert [[copy.datum for copy in found[one]] for one in here] == [[there[1]], [there[0]]]
+    joined = [kept("FILL_chuck", "", "", "CELL.mod"), kept("EMPTY_chuck", "", "", "CELL.mod")]
+    found = paired(here, joined)
+    assert [[copy.datum for copy in found[one]] for one in here] == [[joined[1]], [joined[0]]]
     again = [kept("C7", "", "FILL", "fill.jbi")]  # says nothing but its value
     assert [len(copies) for copies in paired(here, [*there, *again]).values()] == [1, 2]
 

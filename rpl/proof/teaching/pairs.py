@@ -97,7 +97,10 @@ def _likeness(one: Datum, other: Datum, given: Sequence[Given]) -> int:
     if names & _names(other) or (_list_of(one) and _list_of(one) == _list_of(other) and same_value(one, other)):
         return 3
     mine, there = _bare(one.label), _bare(other.label)
-    if (mine and mine in _names(other) | {there}) or (there and any(_is_cut(there, name) for name in names)):
+    called = (
+        {mine, _bare(f"{one.routine}{one.label}")} if mine else set()
+    )  # as points of many programs in one place are
+    if called & (_names(other) | {there}) or (there and any(_is_cut(there, name) for name in names)):
         return 2
     return 1 if _words(one) & _words(other) else 0
 
