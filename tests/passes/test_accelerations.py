@@ -69,4 +69,4 @@ def test_what_only_tunes_the_controller_stays_as_a_remark() -> None:
 def test_a_straight_move_to_joints_goes_to_their_place() -> None:
     assert written("krl", "LIN")[0] == ["LIN rpl_target_of_joints(P1)"]
     (line,) = written("rapid", "MoveL")[0]
-    assert line.startswith("MoveL CalcRobT(P1,")
+    assert line.startswith("MoveL CalcRobT(MAIN_P1,")
