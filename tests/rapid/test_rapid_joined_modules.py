@@ -65,3 +65,16 @@ def test_modules_of_several_routines_and_what_they_show_to_others_stay() -> None
     done = there_and_back(files, "krl", "rapid", "kuka_kr10r1100sixx")
     modules = [file.path for file in done.written.files if file.path.endswith(".mod")]
     assert len([path for path in modules if path.lower().startswith(("cell", "drop"))]) == 2
+
+
+def test_data_of_one_module_does_not_hide_what_another_one_means() -> None:
+    """`Level` is data of `pick` alone, and in `drop` what the controller's list declares for all."""
+    files = {
+        "cell.src": "DEF cell()\n  pick()\n  drop()\nEND\n",
+        "pick.src": "DEF pick()\n  Level=Level+1\nEND\n",
+        "pick.dat": "DEFDAT pick\nDECL INT Level=0\nENDDAT\n",
+        "drop.src": "DEF drop()\n  Level=Level+2\n  IF Level==12 THEN\n    $OUT[1]=TRUE\n  ENDIF\nEND\n",
+        "$config.dat": "DEFDAT $CONFIG\nDECL INT Level=10\nENDDAT\n",
+    }
+    done = there_and_back(files, "krl", "rapid", "kuka_kr10r1100sixx")
+    assert done.prove("cell").agrees and done.switched_on(done.run("cell")) == {1}

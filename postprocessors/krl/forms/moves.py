@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rpl import ir
-from rpl.ir.expressions import UNITS
+from rpl.passes.legalise.facts.motion.saidaccelerations import number_of as written_number
 
 from .. import tables
 
@@ -141,14 +141,9 @@ def _member(value: ir.Expression | None) -> str:
 
 
 def number_of(value: ir.Expression | None) -> float | None:
-    """A number that is written, in the neutral unit."""
-    match value:
-        case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
-            return float(number)
-        case ir.Quantity(value=inner, unit=unit):
-            plain = number_of(inner)
-            return None if plain is None else round(plain * UNITS[unit], 9)
-    return None
+    """A number that is written, in the neutral unit, without what units add behind its ninth place."""
+    known = written_number(value)
+    return None if known is None else round(known, 9)
 
 
 def number_of_frame(value: ir.Expression | None, name: str) -> int | None:

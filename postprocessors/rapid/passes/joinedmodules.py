@@ -12,6 +12,7 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.entries import background, moving_entries
+from rpl.passes.legalise.facts.mentioned import mentioned
 from rpl.passes.legalise.stages import legalising
 from rpl.source import NOWHERE
 from rpl.writing.names import renamed_as
@@ -26,11 +27,11 @@ def joined_modules(program: ir.Program, context: Context) -> ir.Program:
         return program
     beside = background(program)
     found = [module for module in program.modules if module.name not in beside and _is_one_routine(module)]
-    if len(found) < 2:
+    if len({module.routines[0].name.lower() for module in found}) < max(len(found), 2):
         return program
     entries = moving_entries(program)
     found.sort(key=lambda module: module.routines[0].name.lower() not in entries)
-    names = Counter(name for module in found for name in {one.name.lower() for one in _data(module)})
+    names = Counter(name for module in program.modules for name in _names(module))
     parts = [_apart(module, names, context.taken) for module in found]
     first = parts[0]
     whole = replace(
@@ -51,13 +52,19 @@ def _is_one_routine(module: ir.Module) -> bool:
     return len(module.routines) == 1 and own and not module.task
 
 
+def _names(module: ir.Module) -> set[str]:
+    """What the module declares and what it mentions, folded: there a name may be another module's."""
+    declared = (one for one in (*module.declarations, *module.routines) if hasattr(one, "name"))
+    return mentioned(ir.Program((module,))) | {one.name.lower() for one in declared}
+
+
 def _data(module: ir.Module) -> list[ir.Variable]:
     return [one for one in module.declarations if isinstance(one, ir.Variable)]
 
 
 def _apart(module: ir.Module, names: Mapping[str, int], taken: set[str]) -> ir.Module:
-    """The module with names of its own for what others call alike. names: how many modules have each; taken: names in
-    use, folded; the new ones are added."""
+    """The module with names of its own for what others call alike. names: in how many modules each stands; taken: names
+    in use, folded; the new ones are added."""
     routine, changes = module.routines[0].name, dict[str, str]()
     for one in (each for each in _data(module) if each.scope == "module"):
         if names[one.name.lower()] > 1 or _NUMBERED.fullmatch(one.name):
