@@ -119,6 +119,7 @@ CAPABILITIES = Capabilities(
     interrupts=Interrupts(watched=Watched.INTERRUPTS),
     tasks=Tasks(operations=frozenset(("start",)), moving=False),
     io=Io(
+        own_signals=frozenset(tables.OWN_SIGNALS),
         waits_at_rest=False,
         widest_group=16,
         timers=tables.TIMER.last,

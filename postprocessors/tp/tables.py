@@ -80,6 +80,8 @@ SIGNALS: Final[Mapping[str, str]] = spelled(_WORDS.pairs("numbered_signals"))
 # M: last numbers of the signals.
 LAST_SIGNAL: Final[Mapping[str, int]] = {"DI": 32767, "DO": 32767, "AI": 64, "AO": 64, "GI": 100, "GO": 100, "F": 1024}
 NAMED_SIGNALS: Final = (*_WORDS.pairs("named_signals"), "SEMAPHORE")
+# The signals of the end of the arm, which have numbers of their own beside those of DI and DO, by folded name.
+OWN_SIGNALS: Final = {f"r{way[0]}{at}": f"digital_{way}" for way in ("in", "out") for at in range(1, 9)}
 
 LETTERS: Final[Mapping[str, str]] = {"joint": "J", "linear": "L", "circular": "C"}
 # Components of a position register by their number.

@@ -18,6 +18,7 @@ from .joinedtexts import joined_texts
 from .limitedwaits import limited_waits
 from .longlogic import long_logic
 from .moveplaces import places_of_moves
+from .ownwords import own_words
 from .resetclocks import stopped_resets
 from .selects import signals_in_registers
 from .shown import values_beside_messages
@@ -25,6 +26,7 @@ from .zeroplaces import zero_places
 
 PASSES: tuple[Placed, ...] = (
     Placed(stopped_resets, "interrupts", behind="clocks_of_routines"),
+    Placed(own_words, "io", before="number_signals"),
     Placed(groups_to_bits, "io", behind="named_numbers"),
     Placed(values_beside_messages, "statements", behind="senders_as_texts"),
     Placed(places_of_moves, "settings", behind="stand_first"),

@@ -34,6 +34,9 @@ class Io:
     """Empty when signals have numbers (KRL); otherwise signals have names (RAPID), and a number 5 of a kind is called
     prefix + 5."""
 
+    own_signals: frozenset[str] = frozenset()
+    """Folded names of signals that the controller has under these names, beside those that have numbers (TP RO[2])."""
+
     number_data: Mapping[str, tuple[tuple[int, int, int], ...]] = field(default_factory=dict)
     """Programs name signals that have numbers by data that holds these, at their head: of a kind, the first and the
     last number and what the data has more than the number (V+: 1 to 512 are inputs 1001 to 1512)."""

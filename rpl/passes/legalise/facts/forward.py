@@ -97,9 +97,11 @@ class _Run(Generic[S]):
 class Forward(ABC, Generic[S]):
     """`start`: where a run begins. `unknown`: true at any time. States are never changed in place; None: nothing leads
     there. `heeds`: kinds of nodes (rpl.passes.legalise.kinds) outside of which `transfer` changes and `note` takes
-    nothing; None: it looks at all."""
+    nothing; None: it looks at all. `beyond_stops`: what stands behind a stop that ends the program is told of as if the
+    program went on there (translations end such with a guarded stop, which is to be taken away)."""
 
     heeds: frozenset[str] | None = None
+    beyond_stops = False
 
     def __init__(self, program: ir.Program, start: S, unknown: S) -> None:
         self.program, self.start, self.unknown = program, start, unknown
@@ -242,16 +244,29 @@ class Forward(ABC, Generic[S]):
         return self.joined(end, *run.returns)
 
     def body(self, body: ir.Body, state: S | None) -> S | None:
+        stopped: S | None = None
         for statement in body:
             if isinstance(statement, ir.Label):
                 state = self.joined(state, self.run.jumps.get(statement.name.lower()))
-            if state is not None:
+            if self.beyond_stops and state is None and stopped is not None:
+                stopped = self.beyond(statement, stopped)
+            elif state is not None:
+                stopped = state if _is_stop(statement) else None
                 state = state if self.is_idle(statement) else self.statement(statement, state)
                 if self.failures and state is not None and state is not self.run.inside:
                     self.run.inside = self.joined(self.run.inside, state)
             elif self.run.jumps:
                 state = self.inner(statement, None)  # a jump may lead into it
         return state
+
+    def beyond(self, statement: ir.Statement, state: S) -> S | None:
+        """What a statement that only stands behind a stop would leave: nothing comes to it before somebody takes the
+        stop away, and then the program goes on with what held there."""
+        returns, reaching = [*self.run.returns], self.reaching
+        self.reaching = False
+        behind = self.statement(statement, state)
+        self.run.returns, self.reaching = returns, reaching
+        return state if behind is None and _is_stop(statement) else behind
 
     def is_idle(self, statement: ir.Statement) -> bool:
         """Does it, with all in it, leave what holds as it is, and does nobody ask what holds there?"""
@@ -507,6 +522,11 @@ def _has_a_pass(loop: ir.Statement) -> bool:
         case ir.For(start=ir.IntLiteral(value=start), stop=ir.IntLiteral(value=stop), step=None):
             return start <= stop
     return False
+
+
+def _is_stop(statement: ir.Statement) -> bool:
+    """Does it end the program?"""
+    return isinstance(statement, ir.Halt) and statement.kind == "exit"
 
 
 # ---- where a program is entered

@@ -29,6 +29,8 @@ class InForce(Forward[Mapping[str, V]]):
     """`start`: what a run begins with; at other times nothing is known. `changed`: routine -> what it changes, itself
     or by what it calls. `unsure`: what may change between any two statements, of which nothing is known anywhere."""
 
+    beyond_stops = True
+
     def __init__(self, program: ir.Program, start: Mapping[str, V]) -> None:
         variables, settings = assigned_below(program), done_below(program, _settings_of)
         self.changed = {name: frozenset(found | settings.get(name, set())) for name, found in variables.items()}

@@ -315,14 +315,14 @@ def _computed(program: ir.Program) -> frozenset[str]:
 
 
 def _with_numbers(program: ir.Program, context: Context, computed: frozenset[str]) -> ir.Program:
-    prefixes = _prefixes()
+    prefixes, own_signals = _prefixes(), context.capabilities.io.own_signals
     alone = GroupRule.NUMBERED not in context.capabilities.io.groups
 
     def known(signal: ir.Signal) -> str | None:
         """The name of a named signal, or that of a group with a number of its own."""
         match signal:
             case ir.Signal(name=str() as name):
-                return name
+                return None if name.lower() in own_signals else name
             case ir.Signal(kind=kind, index=ir.IntLiteral(value=number), last=None) if kind.startswith("group"):
                 return f"{min(prefixes.get(kind, {kind}))}{number}" if alone else None
         return None
