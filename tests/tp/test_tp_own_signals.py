@@ -1,4 +1,4 @@
-"""RI[1..8] and RO[1..8] are the signals of the end of the arm, beside DI and DO (FANUC handling tool manual: robot I/O).
+"""RI[1..8] and RO[1..8] are the signals of the end of the arm, beside DI and DO (FANUC handling tool manual).
 
 Elsewhere such a signal is called RO2; with that name it is RO[2] again, and takes no number of the others.
 """
