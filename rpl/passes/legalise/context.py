@@ -79,7 +79,8 @@ class Context:
     """`source` and `target` are dialect names. `robot` is the arm the source was written for, `to_robot` the arm that
     will run the result; either may be None (then what needs it is reported). `taken` are all names in use, folded.
     `register_names`: (bank, number) -> source name for data that has got a number, filled by the passes (types beside);
-    `registers`: the numbers that an earlier translation gave, to be honoured. `signal_groups`: groups of signals that
+    `registers`: the numbers that an earlier translation gave, to be honoured; `said_numbers`: those that remarks behind
+    declarations say (folded name -> bank and number). `signal_groups`: groups of signals that
     had a name and are written by their numbers, and signals of a number that are written by their names.
     `signal_names`: the names of numbered signals, (kind, number) -> name. `analog`: what
     is said of analogue signals, by language. `stretches`: of runs, for each of which one move stands in the program;
@@ -99,6 +100,7 @@ class Context:
     register_names: dict[tuple[str, int], str] = field(default_factory=dict)
     register_types: dict[tuple[str, int], str] = field(default_factory=dict)
     registers: Mapping[tuple[str, int], str] = field(default_factory=dict)
+    said_numbers: dict[str, tuple[str, int]] = field(default_factory=dict)
     signal_groups: dict[str, ir.Signal] = field(default_factory=dict)
     signal_names: dict[tuple[str, int], str] = field(default_factory=dict)
     analog: Mapping[str, AnalogRanges] = field(default_factory=dict)

@@ -1,32 +1,59 @@
 """Remarks at declarations, for targets that declare nothing because their data have numbers: they stand by themselves.
 
 Registers and points of such targets are made, folded into the lines that use them or gathered elsewhere; the remark of
-a declaration stays where the declaration stood. One behind a declaration on its line says what it is about.
+a declaration stays where the declaration stood. One behind a declaration on its line says what it is about. One that is
+nothing but a number of the target (`!R7`, as a translation from there leaves it) is that number.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator, Set
 from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.stages import legalising
+from rpl.source import Origin
+
+_NAMED = ir.Variable | ir.Parameter
+_NUMBER = re.compile(r"(?P<bank>[A-Z]+)(?P<number>\d+)")
 
 
 @legalising(unless=lambda context: not context.capabilities.storage.banks)
 def declared_remarks(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with numbered data."""
-    return replace(program, modules=tuple(map(_of_module, program.modules)))
+    own = {name.lower() for module in program.modules for one in module.routines for name in _names(one)}
+    banks = frozenset(bank.name for bank in context.capabilities.storage.banks.values())
+    return replace(program, modules=tuple(_of_module(one, context, banks, own) for one in program.modules))
 
 
-def _of_module(module: ir.Module) -> ir.Module:
-    declarations = tuple(_apart(module.declarations))
+def _names(routine: ir.Routine) -> Iterator[str]:
+    yield from (one.name for one in (*routine.parameters, *routine.declarations) if isinstance(one, _NAMED))
+
+
+def _of_module(module: ir.Module, context: Context, banks: Set[str], own: Set[str]) -> ir.Module:
+    """`own`: names that a routine has for something of its own, folded."""
+    numbered = [_with_number(one, context, banks, own) for one in module.declarations]
+    declarations = tuple(_apart(numbered))
     routines = tuple(replace(one, declarations=tuple(_apart(one.declarations))) for one in module.routines)
     return replace(module, declarations=declarations, routines=routines)
 
 
-def _apart(declarations: tuple[ir.Declaration, ...]) -> Iterator[ir.Declaration]:
+def _with_number(one: ir.Declaration, context: Context, banks: Set[str], own: Set[str]) -> ir.Declaration:
+    """The declaration without the remark that is its number of the target."""
+    match one:
+        case ir.Variable(name=name, origin=Origin(comments=(*others, comment))) if (
+            comment.behind and name.lower() not in own
+        ):
+            found = _NUMBER.fullmatch(comment.text.strip())
+            if found is not None and found["bank"] in banks and not isinstance(one.type, ir.ArrayType):
+                context.said_numbers[name.lower()] = found["bank"], int(found["number"])
+                return replace(one, origin=replace(one.origin, comments=tuple(others)))
+    return one
+
+
+def _apart(declarations: Iterable[ir.Declaration]) -> Iterator[ir.Declaration]:
     for one in declarations:
         origin = one.origin
         if not origin.comments or isinstance(one, ir.Unread):

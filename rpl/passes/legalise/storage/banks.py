@@ -1,7 +1,8 @@
 """Which number each variable gets in a controller's banks: the plan, before any code is rewritten.
 
 Numbers do not move when unrelated lines change: first those that an earlier translation gave, then those that the
-source's own names say (R5, B003), then what is free in order of declaration; generated variables come last.
+source's own names say (R5, B003) or a remark behind them (`count ;R5`), then what is free in order of declaration;
+generated variables come last.
 """
 
 from __future__ import annotations
@@ -125,7 +126,11 @@ class Numbers:
         return None
 
     def said_by_name(self, one: Wanted) -> int | None:
-        return None if one.sizes else own_number(one.declaration.name, one.bank)
+        if one.sizes:
+            return None
+        name = one.declaration.name
+        bank, number = self.context.said_numbers.get(name.lower(), ("", 0))
+        return number if bank == one.bank.name else own_number(name, one.bank)
 
     def take(self, one: Wanted, number: int) -> bool:
         used = self.used.setdefault(one.bank.name, set())

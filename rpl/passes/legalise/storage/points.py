@@ -116,7 +116,7 @@ class Points:
         """Does the variable (or each element of an array) hold one position written out in constants all the time?"""
         if declaration.name.lower() in self.unchanged.assigned or declaration.initial is None:
             return False
-        if declaration.name.lower() in self.unchanged.initialised:
+        if declaration.name.lower() in self.unchanged.initialised | self.context.said_numbers.keys():
             return False
         return is_point(declaration.initial)
 
