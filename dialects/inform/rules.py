@@ -40,7 +40,7 @@ RULES = Rules(
     name="inform",
     first_signal=1,  # OT#(1), IN#(1), OG#(1), AO#(1)
     kept_at=_KEPT_AT,
-    settings_data=frozenset((tables.SHIFT, tables.SHIFT_IN_TOOL)),  # of SFTON
+    settings_data=frozenset((tables.SHIFT, tables.SHIFT_IN_TOOL, tables.WAIT_LATE)),  # of SFTON, and of WAIT .. T=
     case_sensitive=True,  # M: jobs and labels are kept as they are written; controllers use capitals
     # Instructions behind a move wait until the robot has come to its point, within its positioning level.
     advance=AdvanceRules(

@@ -18,6 +18,7 @@ from . import tables
 from .declarations import in_one_list
 from .expressions import Expressions
 from .facts.standing import Standing
+from .facts.uses import Uses
 
 _MESSAGES = {"notify": "", "state": "", "write": "", "error": "error=True", "quit": "blocking=True"}
 _LONGEST_KEYS = 9
@@ -30,6 +31,7 @@ class Sharing(Protocol):
     threads: list[tuple[str, ...]]
     handles: dict[str, str]
     standing: Standing
+    uses: Uses
 
     def fresh(self, stem: str) -> str: ...
 
@@ -247,7 +249,8 @@ class Actions:
             return
         if wait.timed_out is None:
             raise CannotSayError("a wait whose time limit raises an error")
-        flag = self.assignment(ir.Assign(wait.timed_out, _negated(wait.condition)))
+        asked = not isinstance(wait.timed_out, ir.Name) or wait.timed_out.id.lower() not in printer.output.uses.unasked
+        flag = (self.assignment(ir.Assign(wait.timed_out, _negated(wait.condition))),) if asked else ()
         printer.comments_only(wait.origin)
         waited = printer.temporary("waited", "0.0")
         in_time = ir.Binary("<", ir.Name(waited), self.expressions.in_unit(wait.timeout, "s"))
@@ -256,7 +259,7 @@ class Actions:
             "  sync()",
             f"  {waited} = {waited} + get_steptime()",
             "end",
-            flag,
+            *flag,
         )
 
     def later(self, statement: ir.Pulse | ir.SetAfter) -> None:

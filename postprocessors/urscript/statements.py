@@ -20,6 +20,7 @@ from . import spelling
 from .actions import Actions
 from .expressions import Expressions, Notes
 from .facts.standing import Standing
+from .facts.uses import Uses
 from .motion import Motion
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ class Output:
     taken: set[str]
     standing: Standing
     say: Macros
+    uses: Uses
     notes: Notes = field(default_factory=Notes)
     threads: list[tuple[str, ...]] = field(default_factory=list)
     watches: dict[str, str] = field(default_factory=dict)  # stop watch -> the variable that says whether it runs
@@ -263,8 +265,10 @@ class Printer(StatementPrinter[str]):
         self.word("end")
 
     def fixed(self, value: ir.Expression, stem: str) -> ir.Expression:
-        """A bound that is looked at once."""
+        """A bound that is looked at once: as it stands where it stays the same."""
         if constant_number(value, self.scope) is not None:
+            return value
+        if isinstance(value, ir.Name) and value.id.lower() not in self.output.uses.assigned:
             return value
         return ir.Name(self.temporary(stem, self.expressions.given(value)))
 

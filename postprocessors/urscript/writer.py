@@ -14,6 +14,7 @@ from rpl.writing.templates import macros_of
 from .declarations import first_value, header
 from .facts.programs import called_names, names_of, not_reached, programs, started
 from .facts.standing import Standing
+from .facts.uses import Uses
 from .helpers import HELPERS
 from .namespace import one_namespace
 from .statements import INDENT, Output, Printer
@@ -56,7 +57,8 @@ class _Script:
         self.diagnostics = context.diagnostics
         taken = names_of(self.program) | set(HELPERS.texts)
         self.say, standing = macros_of(__package__, context.templates), Standing(self.program)
-        self.output = Output(self.ledger, context.diagnostics, context.robot, taken, standing, self.say)
+        uses = Uses.of(self.program)
+        self.output = Output(self.ledger, context.diagnostics, context.robot, taken, standing, self.say, uses)
         called = called_names(self.program)
         self.is_body = self.start is not None and self.start.name.lower() not in called
         self.tasks = {task.entry.lower(): task for task in self.program.tasks if task.kind == "background"}
@@ -113,6 +115,8 @@ class _Script:
                     printer.more(f"global {runs}")
                 case ir.Variable(type=ir.VendorType(dialect="urscript"), initial=None):
                     printer.comments_only(origin)  # a handle is what the call gives that makes it
+                case ir.Variable(name=name) if name.lower() in self.output.uses.unasked:
+                    printer.comments_only(origin)
                 case ir.Variable():
                     value = first_value(declaration, printer.expressions)
                     printer.line(self.say("variable", where=word, name=declaration.name, value=value), origin)

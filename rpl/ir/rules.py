@@ -223,7 +223,7 @@ class Rules:
     the language fixes it; without a range the I/O configuration alone says it. system_data: modules (folded) of data
     that belong to the controller and not to a program; what a program does not use of them is no part of it.
     settings_data: variables that a reader keeps settings of the controller in (frames, the number of the frame in use,
-    the time that waits take); where the moves say what is set, nobody looks at them.
+    the time that waits take, whether one took too long); where moves and waits say it, nobody looks at them.
     """
 
     name: str

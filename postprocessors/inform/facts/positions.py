@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from rpl import ir
-from rpl.ir.walk import walk
+from rpl.ir.walk import bodies, walk
+from rpl.passes.legalise.facts.effects import blocks
 from rpl.passes.legalise.kinds import walk_for
 
 from .. import tables
@@ -36,24 +37,43 @@ def goes_to_joints(program: ir.Program, constants: Constants) -> bool:
 
 
 def filled(program: ir.Program) -> list[int]:
-    """Position variables that get their values component by component. They begin as a pose without a posture, which
-    keeps the arm's present one; SETE leaves the posture that the controller's memory happens to have."""
-    places: set[int] = set()
+    """Position variables that get their values component by component where no whole place has been stored in them.
+    They begin as a pose without a posture, which keeps the arm's present one; SETE leaves the posture that the
+    controller's memory happens to have."""
     declared = {
-        numbered(ir.Name(one.name))
+        place
         for module in program.modules
         for one in module.declarations
-        if isinstance(one, ir.Variable)
+        if isinstance(one, ir.Variable) and (place := _number(ir.Name(one.name))) is not None
     }
+    found: set[int] = set()
     for module in program.modules:
         for routine in module.routines:
-            for node in walk(routine.body):
-                if not isinstance(node, ir.Assign) or not isinstance(node.target, ir.Field):
-                    continue
-                place = numbered(node.target.base)
-                if place is not None and place[0] == "P" and place not in declared:
-                    places.add(place[1])
-    return sorted(places)
+            for body in bodies(routine):
+                found |= _filled_in(body, declared, declared)
+    return sorted(found)
+
+
+def _filled_in(body: ir.Body, before: set[int], declared: set[int]) -> set[int]:
+    """The same of a body that begins with these stored. A jump may come to a label from anywhere."""
+    stored, found = set(before), set[int]()
+    for statement in body:
+        match statement:
+            case ir.Label():
+                stored = set(declared)
+            case ir.Assign(target=ir.Field(base=base)) if (place := _number(base)) is not None:
+                found |= {place} - stored
+            case ir.Assign(target=target) if (place := _number(target)) is not None:
+                stored.add(place)
+        for inner in blocks(statement):
+            found |= _filled_in(inner, stored, declared)
+    return found
+
+
+def _number(place: ir.Expression) -> int | None:
+    """The number of a position variable; None for anything else."""
+    found = numbered(place)
+    return found[1] if found is not None and found[0] == "P" else None
 
 
 def goes_round_corners(program: ir.Program) -> bool:

@@ -4,6 +4,7 @@ writer."""
 from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed, again
+from rpl.passes.legalise.statements.lateflags import answered_by_condition
 
 from .asread import AS_READ
 from .cutmoves import cut_moves
@@ -17,6 +18,7 @@ from .shiftedpoints import shifted_points
 from .watches import counted_watches
 
 PASSES: tuple[Placed, ...] = (
+    Placed(answered_by_condition, "statements", behind="labels_to_structure"),
     Placed(counted_watches, "io", behind="timers_to_clocks"),
     Placed(groups_in_sizes, "io", behind="shared_groups_to_bits"),
     Placed(again(groups_in_sizes, "some have their numbers by now"), "io", behind="named_numbers"),

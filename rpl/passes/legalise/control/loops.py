@@ -310,7 +310,8 @@ class _Loops:
         return saved
 
     def steady(self, bound: ir.Expression, loop: ir.For) -> bool:
-        """Constant, or made of the routine's own variables that the loop does not change."""
+        """Constant, of data that nothing assigns, or made of the routine's own variables that the loop does not
+        change."""
         if not self.editor.effects.safe(bound):
             return False
         for part in everything(bound):
@@ -322,6 +323,8 @@ class _Loops:
                 if isinstance(declared, ir.Variable) and declared.storage == "constant":
                     continue
                 key = part.id.lower()
+                if isinstance(declared, ir.Variable) and declared.scope != "routine" and key not in self.assigned():
+                    continue
                 own = key in self.local or any(
                     parameter.name.lower() == key and parameter.mode == "value" for parameter in self.routine.parameters
                 )

@@ -17,7 +17,7 @@ from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.motion.saidaccelerations import SAID, Accelerations
 from rpl.passes.legalise.facts.settingsinforce import SETTINGS, SettingsInForce, State
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.rewriting.editing import edit_all
+from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.rewriting.formulas import plain
 from rpl.passes.legalise.rewriting.settingwords import DROPPED, DROPPED_SETTINGS, JOINT_BLEND, USUAL, says
 from rpl.passes.legalise.rewriting.shadows import Shadow, only_served
@@ -26,7 +26,9 @@ from rpl.passes.legalise.settings.coordinatedmoves import SETTING as COORDINATED
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_parts
+from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.signatures import PLACES
+from rpl.passes.typing import type_of
 
 _WORLD = ir.System("null_frame")
 # Settings that such a target has no word for, so that they cannot stay modal either.
@@ -65,8 +67,11 @@ class _Settings:
     reported: set[tuple[Code, str]] = field(default_factory=set)
     told: bool = False  # does the program set different tools, or is none ever in force?
     accelerations: Accelerations = field(init=False)
+    scopes: ProgramScope = field(init=False)
+    scope: Scope | None = None
 
     def __post_init__(self) -> None:
+        self.scopes = ProgramScope(self.source)
         several = len({repr(value) for value in _tools(self.source)}) > 1
         self.told = several or SettingRule.TOOL_IN_FORCE not in self.context.capabilities.settings.rules
         self.flow = SettingsInForce.begun_by(self.source, self.context.source)
@@ -96,7 +101,11 @@ class _Settings:
         return only_served(program, [one.name for one in data])
 
     def modules(self) -> tuple[ir.Module, ...]:
-        return edit_all(self.source, self.body).modules
+        return edit_each(self.source, self.routine).modules
+
+    def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
+        self.scope = self.scopes.routine(module, routine)
+        return edit_bodies(routine, self.body)
 
     def variable(self, name: str) -> ir.Name:
         if name not in self.variables:
@@ -210,7 +219,7 @@ class _Settings:
         says = self.context.capabilities.settings.of_moves
         blend = self.blend(move, state, own) if MoveSetting.BLEND in says else move.blend
         done = replace(done, blend=blend)
-        if MoveSetting.FRAME in says and move.frame is None:
+        if MoveSetting.FRAME in says and move.frame is None and not self.to_joints_anyhow(move, state):
             frame = self.value("base", state, own)
             done = replace(done, frame=None if frame == ir.System("null_frame") else frame)
         if MoveSetting.TOOL in says and move.tool is None:
@@ -218,6 +227,14 @@ class _Settings:
         if MoveSetting.SPEED in says and move.speed is None:
             done = replace(done, speed=self.speed(move, state, own))
         return self.accelerations.with_acceleration(done, state)
+
+    def to_joints_anyhow(self, move: ir.Move, state: State) -> bool:
+        """Does the move go to taught joints, so that the frame, which only the run decides, means nothing to it? Joints
+        that are worked out of a place stand in the frame of the move."""
+        if state.get("base") is not None or move.kind != "joint" or self.scope is None:
+            return False
+        taught = isinstance(move.target, ir.Name | ir.Index | ir.Aggregate)
+        return taught and isinstance(type_of(move.target, self.scope), ir.JointsType)
 
     def value(self, name: str, state: State, own: dict[str, ir.Expression]) -> ir.Expression:
         """What the setting is at a move: a constant, or the variable that holds it."""

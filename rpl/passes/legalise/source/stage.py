@@ -24,6 +24,7 @@ from rpl.passes.legalise.source.places.fewaxes import axes_of_arm
 from rpl.passes.legalise.source.places.homes import home_positions
 from rpl.passes.legalise.source.places.keptangles import named_angles
 from rpl.passes.legalise.source.places.knownshifts import known_shifts
+from rpl.passes.legalise.source.places.movedcopies import moved_copies
 from rpl.passes.legalise.source.places.pulses import fold_pulses
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
@@ -91,6 +92,7 @@ STAGE = Stage(
         home_positions,
         fold_pulses,
         known_shifts,
+        moved_copies,
         shifted_places,
         neutral_functions,
         named_angles,

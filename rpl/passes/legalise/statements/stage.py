@@ -9,6 +9,7 @@ from rpl.passes.legalise.stages import Clause, Stage, again
 from rpl.passes.legalise.statements.calls import rewrite_calls
 from rpl.passes.legalise.statements.enums import enums_to_constants
 from rpl.passes.legalise.statements.errors import check_errors
+from rpl.passes.legalise.statements.lateflags import late_flags
 from rpl.passes.legalise.statements.logic import decide_logic
 from rpl.passes.legalise.statements.messages import message_lines, senders_as_texts, split_messages
 from rpl.passes.legalise.statements.polling import poll_waits
@@ -25,6 +26,7 @@ STAGE = Stage(
     (
         check_errors,
         labels_to_structure,
+        late_flags,
         seldom_looks,
         resting_waits,
         fit_waits,

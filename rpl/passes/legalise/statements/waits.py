@@ -175,7 +175,6 @@ class _Waits:
         return expansion(
             statement.origin,
             (
-                _stopped(index, True),
                 ir.Assign(_timer(index), _negative(timeout)),
                 _stopped(index, False),
                 wait,

@@ -17,10 +17,12 @@ from rpl.passes.fold import Unchanged, constant, lasting, literal
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.parameters import ARGUMENTS
-from rpl.passes.legalise.facts.entries import INITIALISE
+from rpl.passes.legalise.facts.entries import INITIALISE, moving_entries
+from rpl.passes.legalise.facts.liveness import Names
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
+from rpl.passes.legalise.facts.values.firstreads import read_first
 from rpl.passes.legalise.rewriting.operands import is_operand
-from rpl.passes.legalise.rewriting.startdata import assigned_at_start
+from rpl.passes.legalise.rewriting.startdata import assigned_at_start, entries_of
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.legalise.storage.banks import (
@@ -99,6 +101,7 @@ class _Numbered(Rewriter):
         self.helpers_in_use = 0
         self.chosen_here: dict[tuple[tuple[tuple[ir.Expression, int], ...], int], ir.Expression] = {}
         self.larger: dict[str, Bank] = {}
+        self.begins = _begins(program)
         self.planned()
 
     # ---- the plan
@@ -248,7 +251,7 @@ class _Numbered(Rewriter):
             element = self.scope.resolve(type.element) if isinstance(type, ir.ArrayType) else type
             gone = self.is_constant(declaration, element, self.scope, id(declaration) in self.facts.chosen)
             return [] if gone else super().declaration(declaration)
-        if declaration.initial is not None and not self.is_kept_there(declaration):
+        if declaration.initial is not None and not self.is_kept_there(declaration) and self.is_looked_at(declaration):
             self.initialised(declaration, place)
         return []
 
@@ -256,6 +259,10 @@ class _Numbered(Rewriter):
         """Data whose value nobody knows: the target's controller keeps what is stored there, as the source's does."""
         kept = declaration.storage == "persistent" and self.scope.routine_here is None
         return kept and declaration.name.lower() in self.context.unknown
+
+    def is_looked_at(self, declaration: ir.Variable) -> bool:
+        """May a run read what the declaration says, before a statement sets something else?"""
+        return self.scope.routine_here is not None or declaration.name.lower() in self.begins
 
     def initialised(self, declaration: ir.Variable, place: Place) -> None:
         assigns = []
@@ -498,6 +505,15 @@ def _elements(value: ir.Expression | None, depth: int, count: int) -> list[tuple
 
     look(value, depth)
     return list(enumerate(flat[:count]))
+
+
+def _begins(program: ir.Program) -> Names:
+    """Data of modules (folded names) whose first values a run may read, wherever a person starts it."""
+    declared = (one for module in program.modules for one in module.declarations)
+    named = frozenset(one.name.lower() for one in declared if isinstance(one, ir.Variable))
+    background = {name for task in program.tasks if task.kind != "motion" for name in task.modules}
+    beside = [one.name for module in program.modules if module.name in background for one in module.routines]
+    return read_first(program, named, entries_of(program) | moving_entries(program), beside)
 
 
 def _facts(program: ir.Program, scopes: ProgramScope) -> Facts:

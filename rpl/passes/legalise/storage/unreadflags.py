@@ -11,23 +11,24 @@ from dataclasses import replace
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.effects import Effects
+from rpl.passes.legalise.facts.mentioned import mentioned
 from rpl.passes.legalise.facts.usage import base_name
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, map_body
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.rewrite import rewrite_bodies
+from rpl.passes.rewrite import changed, rewrite_bodies
 from rpl.source import NOWHERE
 
 
-@legalising(unless=lambda context: not (context.capabilities.storage.banks or rules_of(context.source).settings_data))
+@legalising()
 def unread_flags(program: ir.Program, context: Context) -> ir.Program:
-    """Flags and numbers only for targets where data takes numbers. Data of the source stays: people look at it."""
+    """Data of the source stays: people look at it. Flags of waits and data of modules go where data takes numbers."""
     settings = {name.lower() for name in rules_of(context.source).settings_data} if context.foreign else set()
     numbered = bool(context.capabilities.storage.banks)
     made = settings | {
         one.name.lower()
-        for module in (program.modules if numbered else ())
-        for declared in (module.declarations, *(routine.declarations for routine in module.routines))
+        for module in program.modules
+        for declared in (module.declarations if numbered else (), *(one.declarations for one in module.routines))
         for one in declared
         if isinstance(one, ir.Variable) and one.origin is NOWHERE and one.storage == "variable"
     }
@@ -47,10 +48,11 @@ def unread_flags(program: ir.Program, context: Context) -> ir.Program:
                 written[name.lower()] += 1
                 flags.add(name.lower())
     idle = {name for name in made | flags if written[name] and named[name] == written[name]}
-    return _without(program, idle) if idle else program
+    idle |= {name for name in made - settings if not named[name]} - mentioned(program)
+    return _without(program, idle, settings) if idle else program
 
 
-def _without(program: ir.Program, idle: set[str]) -> ir.Program:
+def _without(program: ir.Program, idle: set[str], settings: set[str]) -> ir.Program:
     def change(statement: ir.Statement) -> ir.Body:
         match statement:
             case ir.Assign(target=target) if base_name(target) in idle:
@@ -60,17 +62,30 @@ def _without(program: ir.Program, idle: set[str]) -> ir.Program:
         return (rewrite_bodies(statement, lambda body: map_body(body, change)),)
 
     done = edit_all(program, lambda body: map_body(body, change))
-    return replace(
-        done,
-        modules=tuple(
-            replace(one, declarations=tuple(each for each in one.declarations if not _begins(each, idle)))
-            for one in done.modules
-        ),
+    return replace(done, modules=tuple(_declaring(one, idle, settings) for one in done.modules))
+
+
+def _declaring(module: ir.Module, idle: set[str], settings: set[str]) -> ir.Module:
+    """The module without what declares such settings and begins such data, and its routines without their own."""
+
+    def goes(one: ir.Declaration) -> bool:
+        match one:
+            case ir.Initialise(assign=assign):
+                return base_name(assign.target) in idle
+            case ir.Variable(name=name):
+                return name.lower() in idle & settings
+        return False
+
+    declarations = tuple(one for one in module.declarations if not goes(one))
+    routines = tuple(
+        changed(one, declarations=tuple(each for each in one.declarations if not _is_own(each, idle)))
+        for one in module.routines
     )
+    return changed(module, declarations=declarations, routines=routines)
 
 
-def _begins(one: ir.Declaration, idle: set[str]) -> bool:
-    return isinstance(one, ir.Initialise) and base_name(one.assign.target) in idle
+def _is_own(one: ir.Declaration, idle: set[str]) -> bool:
+    return isinstance(one, ir.Variable) and one.origin is NOWHERE and one.name.lower() in idle
 
 
 __all__ = ["unread_flags"]

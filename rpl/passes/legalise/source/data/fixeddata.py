@@ -21,7 +21,7 @@ _SIMPLE = (ir.IntType, ir.RealType, ir.BoolType)
 
 @legalising(unless=lambda context: not context.capabilities.storage.banks)
 def fixed_data(program: ir.Program, context: Context) -> ir.Program:
-    """Only for targets where data takes numbers. What the source keeps from run to run stays data: people change it."""
+    """Only for targets where data takes numbers, and begins with its value at each start of the program."""
     unchanged, scopes = unchanged_in(program), ProgramScope(program)
     unchanged.assigned |= {
         node.counter.lower() for node in walk_for({"For"}, *program.modules) if isinstance(node, ir.For)
@@ -37,7 +37,9 @@ def fixed_data(program: ir.Program, context: Context) -> ir.Program:
 
 def _declared(one: ir.Declaration, unchanged: Unchanged, scope: Scope) -> ir.Declaration:
     match one:
-        case ir.Variable(storage="variable", initial=initial, type=type, name=name) if initial is not None:
+        case ir.Variable(storage="variable" | "persistent", initial=initial, type=type, name=name) if (
+            initial is not None
+        ):
             changes = name.lower() in unchanged.assigned or name.lower() in unchanged.initialised
             if not changes and isinstance(type, _SIMPLE) and constant(initial, scope) is not None:
                 return replace(one, storage="constant")
