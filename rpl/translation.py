@@ -141,7 +141,7 @@ def translate_program(
     def translated(program: ir.Program, stretches: tuple[Stretch, ...]) -> Translation:
         context = Context(source, target_name, capabilities, collector, first, second)
         context.registers, context.stretches, context.before = earlier.numbers, stretches, len(collector)
-        context.there = there
+        context.there, context.options = there, own
         context.analog = {one: analog_ranges(program, one, analog) for one in dict.fromkeys(languages)}
         whole = with_given(program, given) if given and source != target_name else program
         return _translated(whole, context, second, own, templates or {}, earlier)

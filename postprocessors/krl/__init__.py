@@ -2,4 +2,9 @@
 
 from rpl.registry import Target
 
-TARGET = Target(__name__, "KUKA KRL", encodings=("cp1252", "utf-8"))
+TARGET = Target(
+    __name__,
+    "KUKA KRL",
+    options={"moves": "`forms` or `lines`: moves as inline forms or expert lines; else as people write such a program"},
+    encodings=("cp1252", "utf-8"),
+)

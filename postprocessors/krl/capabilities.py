@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from rpl.errors import UsageError
 from rpl.passes.capabilities import (
     AS_MODULE,
     ActionArguments,
@@ -97,3 +100,11 @@ CAPABILITIES = Capabilities(
     ),
     storage=Storage(module_points=ModulePoints.LIST),
 )
+
+
+def fitted(options: Mapping[str, str]) -> Capabilities:
+    """`moves` says how moves look, not what can be said. Raises UsageError for another way than there is."""
+    moves = options.get("moves", "forms")
+    if moves not in ("forms", "lines"):
+        raise UsageError(f"moves={moves}: moves are `forms` (inline forms) or `lines` (expert lines)")
+    return CAPABILITIES

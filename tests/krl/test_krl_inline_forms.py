@@ -7,6 +7,7 @@ import re
 import pytest
 
 from rpl.diagnostics import Diagnostics
+from rpl.errors import UsageError
 from rpl.project import read_sources
 from rpl.source import source_from_bytes, source_from_text
 from rpl.translation import Translation, translate_program
@@ -27,11 +28,12 @@ HEAD = """MODULE cell
 ALSO = "    MoveL Xtop,v200,fine,tGrip\\WObj:=wobjTray;\n"  # one more that is surely a form
 
 
-def written(body: str, head: str = HEAD, map_of: str = "") -> tuple[dict[str, str], Translation]:
+def written(body: str, head: str = HEAD, map_of: str = "", moves: str = "") -> tuple[dict[str, str], Translation]:
     text = f"{head}  PROC main()\n{body}  ENDPROC\nENDMODULE\n"
     read = read_sources([source_from_text("cell.mod", text)], "rapid", Diagnostics())
     earlier = [parse_map(map_of)] if map_of else []
-    done = translate_program(read, "krl", None, None, Diagnostics(), *earlier)
+    options = {"moves": moves} if moves else {}
+    done = translate_program(read, "krl", None, None, Diagnostics(), *earlier, options=options)
     return {one.path: one.data.decode("cp1252").replace("\r\n", "\n") for one in done.files}, done
 
 
@@ -73,6 +75,16 @@ def test_a_move_to_a_taught_point_is_a_form(line: str, fold: str) -> None:
 def test_what_a_form_cannot_say_stays_an_expert_line(line: str) -> None:
     files, _ = written(f"    pSet.trans.z:=310;\n    nFast:=nFast+1;\n{ALSO * 3}    {line}\n")
     assert [fold.split()[2] for fold in folds(files["cell.src"])] == ["top"] * 3
+
+
+def test_an_option_asks_for_forms_wherever_there_can_be_one_or_for_none() -> None:
+    beside = "    MoveL Offs(pPick,0,0,nFast),v200,fine,tGrip\\WObj:=wobjTray;\n" * 2
+    computed = f"    nFast:=nFast+1;\n{ALSO}{beside}"
+    assert folds(written(computed)[0]["cell.src"]) == []
+    assert [fold.split()[2] for fold in folds(written(computed, moves="forms")[0]["cell.src"])] == ["top"]
+    assert folds(written(ALSO * 3, moves="lines")[0]["cell.src"]) == []
+    with pytest.raises(UsageError, match="moves=curves"):
+        written(ALSO, moves="curves")
 
 
 def test_a_program_of_computed_places_stays_an_expert_program() -> None:

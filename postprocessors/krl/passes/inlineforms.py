@@ -81,10 +81,15 @@ class Candidate:
 @legalising(sees=("Move",))
 def inline_forms(program: ir.Program, context: Context) -> ir.Program:
     """Moves to taught points with constant settings are inline forms, where at least half of a program's moves can be:
-    with FDAT, PDAT and LDAT in the data list, and an INI fold where the program begins."""
+    with FDAT, PDAT and LDAT in the data list, and an INI fold where the program begins. The option `moves` asks for
+    them wherever there can be one, or for none."""
+    style = context.options.get("moves", "")
+    if style == "lines":
+        return program
+    wherever = style == "forms"
     foreground = _foreground(program)
     moves = [node for node in walk_for({"Move"}, *foreground) if isinstance(node, ir.Move)]
-    if not _enough(sum(map(is_plain, moves)), moves) or not _followed(program):
+    if not _enough(sum(map(is_plain, moves)), moves, wherever) or not _followed(program):
         return program
     arcs = any(move.kind == "circular" for move in moves)
     start: dict[str, ir.Expression] = {name: ir.RealLiteral(value) for name, value in INITMOV.items()}
@@ -95,7 +100,7 @@ def inline_forms(program: ir.Program, context: Context) -> ir.Program:
     found = _of_one_frame(_candidates(program, foreground, flow))
     assigned = usage_of(_without_values(program)).assigned
     computed = sum(not flow.never_comes_to(move) and _by_run(move, flow.at(move), assigned) for move in moves)
-    while _enough(len(found), moves) and len(found) >= FORMS_PER_COMPUTED * computed:
+    while _enough(len(found), moves, wherever) and (wherever or len(found) >= FORMS_PER_COMPUTED * computed):
         wanted = Wanted.of(program, {key: one.form for key, one in found.items()})
         kept = {key: one for key, one in found.items() if not _disturbs(one, wanted)}
         if len(kept) == len(found):
@@ -104,8 +109,8 @@ def inline_forms(program: ir.Program, context: Context) -> ir.Program:
     return program
 
 
-def _enough(count: int, moves: list[ir.Move]) -> bool:
-    return count > 0 and 2 * count >= len(moves)
+def _enough(count: int, moves: list[ir.Move], wherever: bool) -> bool:
+    return count > 0 and (wherever or 2 * count >= len(moves))
 
 
 def _by_run(move: ir.Move, state: Mapping[str, ir.Expression | None], assigned: set[str]) -> bool:

@@ -88,7 +88,8 @@ class Context:
     result does not come, by where they stand in the source; `flanges`: where it has to come, as far as that is known,
     4x4 in mm, in the arm's base. `there`: what stands on the robot that will run it. `unknown`: data, folded, that the
     source's controller keeps and whose value stands in no file; its zero is nothing to begin with. `renamed`: data that
-    passes have given another name, as the target's people name it: name before the passes -> name."""
+    passes have given another name, as the target's people name it: name before the passes -> name. `options`: the
+    target's own, by name."""
 
     source: str
     target: str
@@ -108,6 +109,7 @@ class Context:
     before: int = 0
     unreached: dict[tuple[int, int], Unreached] = field(default_factory=dict)
     flanges: list[Any] = field(default_factory=list)
+    options: Mapping[str, str] = field(default_factory=dict)
     there: Standing = NOTHING
     unknown: set[str] = field(default_factory=set)
     renamed: dict[str, str] = field(default_factory=dict)
