@@ -89,4 +89,4 @@ def test_the_place_at_joints_with_a_tool_beside_that_of_the_moves() -> None:
     journey = there_and_back({"main.mod": AT_JOINTS}, "rapid", "inform", "abb_irb1600_6_12")
     result = journey.prove()
     assert (result.verdict, result.max_path_mm < 0.01) == ("alike", True), result.as_text()
-    assert re.search(r"CNVRT (P\d+) P127 BF TL#\(1\)\r\nMULMAT \1 ", journey.text)
+    assert re.search(r"CNVRT (P\d+) P\d+ BF TL#\(1\)\r\nMULMAT \1 ", journey.text)

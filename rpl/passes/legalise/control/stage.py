@@ -11,6 +11,7 @@ from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.locals import variables_of_routines
 from rpl.passes.legalise.control.loops import fit_loops
 from rpl.passes.legalise.control.parameters import fit_arguments
+from rpl.passes.legalise.control.samevariables import same_variables
 from rpl.passes.legalise.control.steps import steps
 from rpl.passes.legalise.stages import Clause, Stage, again
 
@@ -18,6 +19,7 @@ STAGE = Stage(
     "control",
     (
         functions_to_procedures,
+        same_variables,
         fit_arguments,
         fit_loops,
         steps,

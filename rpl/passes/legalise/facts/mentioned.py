@@ -3,13 +3,28 @@ prelude, and the controller's own data lists."""
 
 from __future__ import annotations
 
+from collections import Counter
+
 from rpl import ir
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.usage import each_expression
-from rpl.passes.legalise.kinds import gathering
+from rpl.passes.legalise.kinds import gathering, walk_for
 from rpl.passes.rewrite import rewrite_parts
 
+_NAMING = frozenset(("Call", "CallRoutine", "ConnectInterrupt", "OnError", "TaskControl"))
 _BUILT_IN = frozenset(("tool", "workobject", "load", "speed", "zone", "pose", "vector", "rotation", "joints", "axes"))
+
+
+def naming_of_routines(program: ir.Program) -> Counter[str]:
+    """How often each routine is called, started, connected to an interrupt or given to an error, by folded name."""
+    found: Counter[str] = Counter()
+    for node in walk_for(_NAMING, program):
+        match node:
+            case ir.Call(name=name) | ir.CallRoutine(name=name) | ir.ConnectInterrupt(routine=name):
+                found[name.lower()] += 1
+            case ir.OnError(routine=str() as name) | ir.TaskControl(task=str() as name):
+                found[name.lower()] += 1
+    return found
 
 
 def is_linked(module: ir.Module, context: Context) -> bool:

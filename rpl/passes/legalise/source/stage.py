@@ -46,6 +46,7 @@ from rpl.passes.legalise.source.texts.textdecimals import text_decimals
 from rpl.passes.legalise.source.texts.textlengths import text_lengths
 from rpl.passes.legalise.source.texts.wholetexts import whole_texts
 from rpl.passes.legalise.source.timedwaits import timed_waits
+from rpl.passes.legalise.source.waitsincalls import waits_in_calls
 from rpl.passes.legalise.source.ways.constantorientations import constant_orientations
 from rpl.passes.legalise.source.ways.levels import levels_to_distances
 from rpl.passes.legalise.source.ways.placewaits import place_waits
@@ -62,6 +63,7 @@ STAGE = Stage(
         kept_values_known,
         undeclared_data,
         labels_as_names,
+        waits_in_calls,
         signal_words,
         fixed_data,
         names_of_local_routines,
