@@ -7,18 +7,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.facts.forward import reactions
-from rpl.passes.legalise.facts.settingsinforce import in_frame
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
+from rpl.passes.legalise.rewriting.framedplaces import FramedPlaces, keeps_world
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.scope import Scope
-from rpl.passes.typing import type_of
 
 _SHIFTS = {"offset": "element_sum", "tool_offset": ":"}
 _PLAIN = (ir.Name, ir.Index, ir.Field)
@@ -27,7 +24,7 @@ _PLAIN = (ir.Name, ir.Index, ir.Field)
 @legalising(sees=("operator :", "function compose", "function offset", "function tool_offset"))
 def places_of_moves(program: ir.Program, context: Context) -> ir.Program:
     """Frames in front of places and constant shifts are said at the move."""
-    worker = _Places(ShiftFrames(context), unchanged_in(program), _keeps_world(program))
+    worker = _Places(ShiftFrames(context), unchanged_in(program), keeps_world(program))
     scopes = ProgramScope(program)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
@@ -39,22 +36,6 @@ def places_of_moves(program: ir.Program, context: Context) -> ir.Program:
         return done
     home = replace(done.modules[0], declarations=(*done.modules[0].declarations, *worker.shifts.declared()))
     return replace(done, modules=(home, *done.modules[1:]))
-
-
-def _keeps_world(program: ir.Program) -> bool:
-    """Is the frame in force the world all the time, and does nothing look where the robot is? Then moves may select
-    frames of their own."""
-    if any(True for _ in reactions(program)):
-        return False
-    for node in walk(*program.modules):
-        match node:
-            case ir.Assign(target=ir.System(name="base" | "displacement")) | ir.Vendor() | ir.Opaque() | ir.Spline():
-                return False
-            case ir.Move(frame=frame, search=search) if frame is not None or search is not None:
-                return False
-        if isinstance(node, ir.Statement) and in_frame(node):
-            return False
-    return True
 
 
 @dataclass(slots=True)
@@ -75,32 +56,11 @@ class _Places:
 
     def in_frame(self, move: ir.Move) -> tuple[ir.Body, ir.Move]:
         """The move with its place in the frame that it is seen from, and what selects this frame or the world."""
-        if move.relative == "tool" or isinstance(type_of(move.target, self.scope), ir.JointsType):
+        places = FramedPlaces(self.scope, self.unchanged, self.has_register)
+        if move.relative == "tool" or places.goes_to_joints(move):
             return (), move
-        frame, target = self.split(move.target)
-        through = None if move.via is None else self.split(move.via)
-        if frame is None or move.relative is not None or (through is not None and through[0] != frame):
-            return (ir.Assign(ir.System("base"), ir.System("null_frame")),), move
-        via = None if through is None else through[1]
-        return (ir.Assign(ir.System("base"), frame),), replace(move, target=target, via=via)
-
-    def split(self, place: ir.Expression) -> tuple[ir.Expression | None, ir.Expression]:
-        """The named frame that a place is seen from, and the place in it."""
-        match place:
-            case (
-                ir.Binary(op=":", left=ir.Name() as frame, right=inner)
-                | ir.Builtin(function="compose", arguments=(ir.Name() as frame, inner))
-            ) if self.is_frame(frame) and self.has_register(inner):
-                return frame, inner
-            case ir.Binary(op=":", left=left, right=right):
-                frame_of, inner = self.split(left)
-                return frame_of, place if frame_of is None else replace(place, left=inner, right=right)
-            case ir.Builtin(function="offset" | "tool_offset" as how, arguments=(base, *rest)):
-                frame_of, inner = self.split(base)
-                if frame_of is None or how == "offset":
-                    return None, place
-                return frame_of, replace(place, arguments=(inner, *rest))
-        return None, place
+        frame, inner = places.of_move(move)
+        return (ir.Assign(ir.System("base"), frame or ir.System("null_frame")),), inner
 
     def has_register(self, place: ir.Expression) -> bool:
         """Is it a place with a point or register of its own? One that is put together of numbers has none at a move."""
@@ -109,11 +69,6 @@ class _Places:
                 numbers = all(_is_number(constant(one, self.scope, self.unchanged)) for one in way)
                 return len(way) == 3 and numbers and isinstance(base, _PLAIN)
         return isinstance(place, _PLAIN) or constant(place, self.scope, self.unchanged) is not None
-
-    def is_frame(self, name: ir.Name) -> bool:
-        symbol = self.scope.value(name.id)
-        shared = symbol is not None and symbol.routine is None and name.id.lower() not in self.unchanged.assigned
-        return shared and isinstance(type_of(name, self.scope), ir.PoseType)
 
     def shifted(self, move: ir.Move) -> ir.Expression:
         """The target with a constant shift of it in data of its own, as the register that the move names."""
