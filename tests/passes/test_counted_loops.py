@@ -59,3 +59,30 @@ def test_a_number_that_is_looked_at_elsewhere_stays_one(case: str) -> None:
     assert "FOR column" not in journey.text
     assert ("FOR row FROM 0 TO 1 DO" in journey.text) == (case != "gone on with")  # that might mean the outer loop
     assert journey.prove("job").equal
+
+
+HEAD = """def job():
+  def show(which):
+    textmsg(to_str(which))
+    {elsewhere}
+  end
+  global row = 0
+  row = 1
+  while row <= 3:
+    show(row)
+    row = row + 1
+  end
+end
+"""
+
+
+@pytest.mark.parametrize(
+    ("elsewhere", "counts"),
+    [("sync()", True), ("global other = row", False), ("if row == 2:\n      row = 3\n    end", False)],
+    ids=["nowhere else", "read elsewhere", "set by what the loop calls"],
+)
+def test_a_number_that_is_set_at_the_head_as_well(elsewhere: str, counts: bool) -> None:
+    journey = there_and_back({"job.script": HEAD.format(elsewhere=elsewhere)}, "urscript", "rapid")
+    assert ("FOR row FROM 1 TO 3 DO" in journey.text) is counts, journey.text
+    assert "row:=0" not in journey.text or not counts
+    assert journey.prove("job").equal

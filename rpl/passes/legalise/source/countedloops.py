@@ -1,5 +1,6 @@
 """Loops that count by hand: languages without a counting loop (URScript) set a number in front of a `while`, compare it
-and add to it in the end. Where nothing else looks at the number, that is a counting loop with a counter of its own.
+and add to it in the end. Where nothing else looks at the number, that is a counting loop with a counter of its own, and
+what else sets the number in the same routine (`global i = 0` at its head) goes.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ def _no_use(context: Context) -> bool:
 @legalising(unless=_no_use, sees=("While",))
 def counted_loops(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets with counting loops. The number is whole, at each pass by 1 more, and named nowhere but in such
-    loops; the end of the counting is the same in all passes, and the first pass surely runs."""
+    loops, or where one routine sets it to a constant; the end of the counting is the same in all passes, and the first
+    pass surely runs."""
     worker = _Loops(program, bool(context.capabilities.storage.banks))
     return worker.program() if worker.counters else program
 
@@ -54,19 +56,24 @@ class _Loops:
         self.assigned, self.otherwise = usage.assigned, usage.otherwise
         mentions: Counter[int] = Counter()
         counted: Counter[int] = Counter()
+        looped, homes = set[int](), dict[int, set[int]]()  # homes: the routines that set it
         for module in program.modules:
             mentions.update(self.mentioned(module.declarations, self.scopes.module(module)))
         for module, routine in self.scopes.routines():
             scope = self.scopes.routine(module, routine)
             mentions.update(self.mentioned((routine,), scope))
             for body in _blocks(routine):
+                for one in body:
+                    if key := self.set_to(one, scope):
+                        counted[key] += 1
+                        homes.setdefault(key, set()).add(id(routine))
                 for first, loop in pairwise(body):
                     found = self.loop(first, loop, scope)
                     if found is not None:
                         key = self.variable(found.name, scope)
-                        inside = self.mentioned((first, loop), scope)
-                        counted[key] += sum(one == key for one in inside)
-        self.counters = {key for key in counted if key and counted[key] == mentions[key]}
+                        counted[key] += sum(one == key for one in self.mentioned((loop,), scope))
+                        looped.add(key)
+        self.counters = {key for key in looped if key and counted[key] == mentions[key] and len(homes[key]) == 1}
         """Identities of the declarations of the numbers."""
 
     def variable(self, name: str, scope: Scope) -> int:
@@ -76,6 +83,13 @@ class _Loops:
         declared = None if symbol is None else symbol.declaration
         plain = isinstance(declared, ir.Variable) and declared.storage == "variable"
         return id(declared) if plain and name.lower() not in self.otherwise else 0
+
+    def set_to(self, statement: ir.Statement, scope: Scope) -> int:
+        """The variable that a statement sets to a constant whole number; 0: it does something else."""
+        match statement:
+            case ir.Assign(target=ir.Name(id=name), value=value) if _whole(value, scope) is not None:
+                return self.variable(name, scope)
+        return 0
 
     def mentioned(self, nodes: Sequence[object], scope: Scope) -> list[int]:
         return [self.variable(name, scope) for node in walk(*nodes) for name in _mentioned(node)]
@@ -131,9 +145,13 @@ class _Loops:
                 if found is not None and self.variable(found.name, scope) in self.counters:
                     done.append(self.counting(statements[at], found, body))
                     at += 2
-                else:
-                    done.append(rewrite_bodies(statements[at], body))
-                    at += 1
+                    continue
+                one = statements[at]
+                if self.set_to(one, scope) not in self.counters:
+                    done.append(rewrite_bodies(one, body))
+                elif one.origin.comments:
+                    done.append(ir.Nothing(origin=one.origin))
+                at += 1
             return tuple(done)
 
         return replace(edit_bodies(routine, body), declarations=self.kept(routine.declarations))
