@@ -25,13 +25,14 @@ def framed_moves(program: ir.Program, context: Context) -> ir.Program:
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
         scope = scopes.routine(module, routine)
-        return edit_bodies(routine, _Framed(FramedPlaces(scope, unchanged, _is_named)).body)
+        return edit_bodies(routine, _Framed(FramedPlaces(scope, unchanged, _is_place)).body)
 
     return edit_each(program, work)
 
 
-def _is_named(place: ir.Expression) -> bool:
-    return isinstance(place, ir.Name | ir.Index)
+def _is_place(place: ir.Expression) -> bool:
+    """One with a name, or one that a function of the program gives."""
+    return isinstance(place, ir.Name | ir.Index | ir.Call)
 
 
 @dataclass(slots=True)
