@@ -42,7 +42,6 @@ def _moves(text: str) -> list[str]:
 
 def test_the_frame_is_the_base_of_its_moves() -> None:
     assert _moves(SCRIPT) == [
-        "$BASE=$NULLFRAME",
         "PTP ready",
         "$BASE=BASE_DATA[1]",
         "LIN above",
@@ -52,6 +51,11 @@ def test_the_frame_is_the_base_of_its_moves() -> None:
         "$BASE=$NULLFRAME",
         "LIN apart",
     ]
+
+
+def test_a_first_move_in_the_world_has_the_world_as_its_base() -> None:
+    first = SCRIPT.replace("  movej(ready", "  movel(apart, a=1.2, v=0.25)\n  movej(ready", 1)
+    assert _moves(first)[:5] == ["$BASE=$NULLFRAME", "LIN apart", "PTP ready", "$BASE=BASE_DATA[1]", "LIN above"]
 
 
 @pytest.mark.parametrize("text", [CHANGED, SEEN], ids=["the frame changes", "the program looks where the robot is"])

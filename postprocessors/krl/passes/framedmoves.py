@@ -4,11 +4,13 @@ the place (`$BASE=table`, `LIN above`; counted in public programs, one move in t
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
 from rpl import ir
-from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
+from rpl.passes.legalise.context import Context, ProgramScope, rules_of
+from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.framedplaces import FramedPlaces, keeps_world
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -17,8 +19,7 @@ from rpl.passes.legalise.stages import legalising
 
 @legalising(sees=("operator :", "function compose"))
 def framed_moves(program: ir.Program, context: Context) -> ir.Program:
-    """Where the base is the world all the time otherwise; moves beside them say that they are seen from it. A move to
-    joints keeps the base of the move above it."""
+    """Where the base is the world all the time otherwise; it is set where another one is in force."""
     if not keeps_world(program):
         return program
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
@@ -27,7 +28,28 @@ def framed_moves(program: ir.Program, context: Context) -> ir.Program:
         scope = scopes.routine(module, routine)
         return edit_bodies(routine, _Framed(FramedPlaces(scope, unchanged, _is_place)).body)
 
-    return edit_each(program, work)
+    done = edit_each(program, work)
+    if not any(_frame_of(node) not in (None, _WORLD) for node in walk_for({"Assign"}, *done.modules)):
+        return program
+    # The controller keeps the base of whatever ran before: the first move says its own.
+    flow = SettingsInForce.of(done, dict(rules_of(context.source).system_defaults), {"base": ir.System("base")})
+
+    def change(statement: ir.Statement) -> ir.Body:
+        if isinstance(statement, ir.Assign) and _frame_of(statement) is not None and flow.again(statement):
+            return ()
+        return (inside(statement, lambda body: map_body(body, change)),)
+
+    return edit_all(done, lambda body: map_body(body, change, {"Assign"}))
+
+
+_WORLD = ir.System("null_frame")
+
+
+def _frame_of(node: object) -> ir.Expression | None:
+    match node:
+        case ir.Assign(target=ir.System(name="base"), value=value):
+            return value
+    return None
 
 
 def _is_place(place: ir.Expression) -> bool:
@@ -35,12 +57,11 @@ def _is_place(place: ir.Expression) -> bool:
     return isinstance(place, ir.Name | ir.Index | ir.Call)
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class _Framed:
-    """The moves of one routine. last: what the move above is seen from."""
+    """The moves of one routine, each behind what selects its frame; one to joints needs none."""
 
     places: FramedPlaces
-    last: ir.Expression = field(default_factory=lambda: ir.System("null_frame"))
 
     def body(self, body: ir.Body) -> ir.Body:
         return map_body(body, self.statement)
@@ -49,7 +70,6 @@ class _Framed:
         if not isinstance(statement, ir.Move):
             return (inside(statement, self.body),)
         if statement.relative == "tool" or self.places.goes_to_joints(statement):
-            return (replace(statement, frame=self.last),)
+            return (statement,)
         frame, move = self.places.of_move(statement)
-        self.last = frame or ir.System("null_frame")
-        return (replace(move, frame=self.last),)
+        return ir.Assign(ir.System("base"), frame or _WORLD), move
