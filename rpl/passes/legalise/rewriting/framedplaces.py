@@ -8,12 +8,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import walk
 from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.facts.forward import reactions
-from rpl.passes.legalise.facts.settingsinforce import in_frame
+from rpl.passes.legalise.facts.settingsinforce import IN_FRAME, in_frame
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
+
+_ASKING = {"system actual_pose", *(f"function {name}" for name in IN_FRAME)}
+_LOOKED_AT = frozenset({"Assign", "Move", "Spline", "Vendor", "Opaque", *_ASKING})
 
 
 def keeps_world(program: ir.Program) -> bool:
@@ -21,7 +24,7 @@ def keeps_world(program: ir.Program) -> bool:
     frames of their own."""
     if any(True for _ in reactions(program)):
         return False
-    for node in walk(*program.modules):
+    for node in walk_for(_LOOKED_AT, *program.modules):
         match node:
             case ir.Assign(target=ir.System(name="base" | "displacement")) | ir.Vendor() | ir.Opaque() | ir.Spline():
                 return False
