@@ -153,7 +153,6 @@ WALKS_ALL = {
     "rpl.passes.settable": "every place that any statement sets; asked by the linker too",
     "rpl.postprocessors.urscript.facts.programs": "every name of anything",
     "rpl.postprocessors.vplus.facts.names": "every name of anything",
-    "rpl.postprocessors.tp.passes.moveplaces": "every statement that reads a place in the frame in use",
 }
 WHOLE_WALK = re.compile(r"\bwalk\(\*?(self\.)?(program|source)(\.modules)?\)|\bwalk\(\*done\.modules\)")
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from rpl import ir
 from rpl.passes.fold import Unchanged
 from rpl.passes.legalise.facts.forward import reactions
-from rpl.passes.legalise.facts.settingsinforce import IN_FRAME, in_frame
+from rpl.passes.legalise.facts.settingsinforce import IN_FRAME
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
@@ -30,8 +30,10 @@ def keeps_world(program: ir.Program) -> bool:
                 return False
             case ir.Move(frame=frame, search=search) if frame is not None or search is not None:
                 return False
-        if isinstance(node, ir.Statement) and in_frame(node):
-            return False
+            case ir.System(name="actual_pose"):
+                return False
+            case ir.Builtin(function=function, arguments=given) if len(given) == IN_FRAME.get(function, -1):
+                return False
     return True
 
 

@@ -14,6 +14,7 @@ from itertools import count
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.rows import Cells
+from rpl.passes.capabilities import Bank
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.effects import is_constant
@@ -51,6 +52,12 @@ def is_whole(value: ir.Expression | None) -> bool:
     if None in names:
         return all(is_whole(one) or not isinstance(one, ir.Aggregate) for _, one in value.entries)
     return "trans" in names or "robax" in names or names >= _POSE or "j1" in names
+
+
+def _own_number(name: str, bank: Bank) -> int | None:
+    """The number that the name of a point says, also behind the letter that some put before one (`XP6`)."""
+    number = own_number(name, bank)
+    return own_number(name[1:], bank) if number is None and name[:1].isalpha() else number
 
 
 def poses_of_moves(program: ir.Program, context: Context) -> frozenset[str]:
@@ -258,7 +265,7 @@ class Points:
         bank = self.context.capabilities.storage.points
         assert bank is not None  # asked only for targets that have points
         given = self.earlier.get(label.lower())
-        for wanted in (given, own_number(label, bank)):
+        for wanted in (given, _own_number(label, bank)):
             if wanted is not None and wanted not in self.used:
                 return wanted
         reserved = (self.used, self.kept, self.own_numbers())
@@ -272,6 +279,6 @@ class Points:
         """Numbers that names of the program say for themselves."""
         bank, names = self.context.capabilities.storage.points, self.context.taken
         if bank is not None and len(names) != self.seen_names:  # names are only ever added
-            found = {own_number(name, bank) for name in names}
+            found = {_own_number(name, bank) for name in names}
             self.own, self.seen_names = {number for number in found if number is not None}, len(names)
         return self.own
