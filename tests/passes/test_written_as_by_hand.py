@@ -166,3 +166,43 @@ def test_a_wait_that_is_tried_again_looks_first_and_keeps_no_flag(target: str, l
 
 def test_a_choice_behind_a_wait_asks_the_signal() -> None:
     assert "IFTHENEXP IN#(2)=OFF" in there_and_back({"m.mod": RETRIED}, "rapid", "inform").text
+
+
+# ---- waits for the end of the motion
+
+GRIPPED = """.PROGRAM main()
+        SIGNAL -1
+        CALL open()
+        MOVE #PPOINT(0, -90, 90, 0, 90, 0)
+        MOVE #PPOINT(10, -80, 90, 0, 80, 0)
+        CALL open()
+        MOVE #PPOINT(20, -80, 90, 0, 80, 0)
+        MOVE #PPOINT(0, -90, 90, 0, 90, 0)
+        BREAK
+        CALL open()
+.END
+.PROGRAM open()
+        BREAK
+        SIGNAL 1
+        WAIT.EVENT , 0.3
+        SIGNAL -1
+.END
+"""
+
+
+@pytest.mark.parametrize(("target", "stops"), [("inform", " PL=0"), ("tp", " FINE ")])
+def test_a_wait_that_a_routine_begins_with_is_said_at_the_moves_before_its_calls(target: str, stops: str) -> None:
+    journey = there_and_back({"m.v2": GRIPPED}, "vplus", target, "adept_viper_s650")
+    assert not journey.losses
+    moves = [line for line in journey.text.splitlines() if re.search(r"MOV[JL] |^ *\d+:[JL] ", line)]
+    assert [stops in line for line in moves] == [False, True, False, True]
+    assert not re.search("IMOV| INC ", journey.text)
+    assert journey.prove().verdict in ("equal", "alike")
+
+
+def test_a_wait_for_a_move_that_is_not_known_stays_in_its_routine() -> None:
+    asked = (
+        "        MOVE #PPOINT(20, -80, 90, 0, 80, 0)\n        IF SIG(1001) THEN\n            CALL open()\n        END\n"
+    )
+    text = GRIPPED.replace("        MOVE #PPOINT(20, -80, 90, 0, 80, 0)\n", asked)
+    assert "IMOV" in there_and_back({"m.v2": text}, "vplus", "inform", "adept_viper_s650").text

@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.legalise.context import Context, rules_of
-from rpl.passes.legalise.facts.forward import Forward, reactions, started
+from rpl.passes.legalise.facts.forward import reactions, started
+from rpl.passes.legalise.facts.motion.resting import Rests
 from rpl.passes.legalise.interrupts.tasks.criticals import Facts
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
@@ -40,7 +41,10 @@ def at_rest(program: ir.Program, context: Context) -> ir.Program:
     worker = _AtRest(Facts(program))
     if not worker.beside([n for n in nodes if isinstance(n, _INTERRUPTS)]):
         return program
-    rests = _Rests(program, worker.facts).rests
+    resting = Rests(program)
+    begun = {*started(program), *worker.facts.alone, *worker.facts.started}
+    resting.solve(sorted(begun), sorted({*(name.lower() for name in reactions(program)), *worker.facts.several}))
+    rests = resting.rests
 
     def change(statement: ir.Statement) -> ir.Body:
         resting = rests.get(id(statement), False)
@@ -57,40 +61,6 @@ def at_rest(program: ir.Program, context: Context) -> ir.Program:
         return edit_bodies(routine, lambda body: map_body(body, change)) if worker.knows(routine) else routine
 
     return edit_each(program, work)
-
-
-class _Rests(Forward[bool]):
-    """`rests`: does the robot rest where a statement (by identity) evaluates its own expressions?"""
-
-    def __init__(self, program: ir.Program, facts: Facts) -> None:
-        super().__init__(program, True, False)
-        self.rests: dict[int, bool] = {}
-        begun = {*started(program), *facts.alone, *facts.started}
-        self.solve(sorted(begun), sorted({*(name.lower() for name in reactions(program)), *facts.several}))
-
-    def transfer(self, statement: ir.Statement, before: bool) -> bool:
-        match statement:
-            case ir.WaitForMotion():
-                return True
-            case ir.Move(blend=ir.BlendStop(), concurrent=False):
-                return True
-            case ir.Move() | ir.MoveExternal() | ir.Spline():
-                return False
-        return before
-
-    def join(self, one: bool, other: bool) -> bool:
-        return one and other
-
-    def inner(self, statement: ir.Statement, state: bool | None) -> bool | None:
-        after = super().inner(statement, state)
-        return False if isinstance(statement, ir.Spline) and after else after
-
-    def handled(self, state: bool) -> tuple[bool, bool | None, bool | None]:
-        return super().handled(False)  # an error may come in the middle of a move
-
-    def note(self, statement: ir.Statement, before: bool) -> None:
-        known = self.rests.get(id(statement), True)
-        self.rests[id(statement)] = known and before and not self.calls_in(statement)
 
 
 class _AtRest:

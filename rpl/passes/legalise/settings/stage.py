@@ -13,6 +13,7 @@ from rpl.passes.legalise.settings.corners.keptcorners import kept_corners
 from rpl.passes.legalise.settings.corners.overlapping import left_out_moves
 from rpl.passes.legalise.settings.corners.standing import stand_first
 from rpl.passes.legalise.settings.corners.turningzones import reduced_zones
+from rpl.passes.legalise.settings.corners.waitedmoves import waits_at_moves
 from rpl.passes.legalise.settings.explicit import explicit_to_modal
 from rpl.passes.legalise.settings.mixedspeeds import mixed_speeds
 from rpl.passes.legalise.settings.movesettings import settings_at_moves
@@ -43,6 +44,7 @@ STAGE = Stage(
         settings_at_moves,
         scaled_override,
         stand_first,
+        waits_at_moves,
     ),
     Clause(
         system="advance base blend_distance blend_joint blend_rotation blend_speed circle_orientation "
