@@ -29,7 +29,7 @@ def test_messages_name_the_registers_of_their_values() -> None:
     assert "MESSAGE[count: R1 pieces]" in main and "MESSAGE[SR1 of R1 mm is]" in main
     assert "R[2:shown]=R[1:count]/2 ;" in main and "MESSAGE[half R2]" in main
     assert "MESSAGE[v R3]" in files["SHOW.LS"]
-    assert set(codes) == {"message-values-named", "message-split", "persistent-set-at-start"}
+    assert set(codes) == {"message-values-named", "message-split"}
 
 
 TEXTS = """MODULE m
