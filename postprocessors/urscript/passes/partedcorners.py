@@ -18,6 +18,7 @@ from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.motion.cornersizes import written_size
 from rpl.passes.legalise.facts.motion.moveorder import Pair, pairs_of
+from rpl.passes.legalise.facts.motion.placeboxes import Boxes
 from rpl.passes.legalise.facts.motion.ways import Ways, between
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
@@ -60,7 +61,8 @@ def parted_corners(program: ir.Program, context: Context) -> ir.Program:
     if not pairs:
         return program
     free = controller_named(context.source).corner_whole > 0.0
-    worker = _Corners(Ways.of(program, context), context, free)
+    ways = Ways.of(program, context)
+    worker = _Corners(ways, Boxes.of(program, ways), context, free)
     for pair in pairs:
         worker.measure(pair)
     worker.measure_one_side()
@@ -87,6 +89,7 @@ class _Room:
 @dataclass(slots=True)
 class _Corners:
     ways: Ways
+    boxes: Boxes
     context: Context
     free: bool  # does the source's controller let a corner take a whole move?
     rooms: dict[int, _Room] = field(default_factory=dict)
@@ -110,6 +113,8 @@ class _Corners:
             return
         if pair.stands or len(both) + (first is None) + (second is None) < 2:
             return  # the robot stops at the other one
+        if first is not None and second is not None and self.far(both, self.boxes.least_mm(first, second)):
+            return
         computed = self.ways.computed(first, second) if first is not None and second is not None else None
         if computed is None:
             self.unknown.append(pair)
@@ -118,6 +123,11 @@ class _Corners:
             room = self.rooms.setdefault(id(one), _Room())
             if computed not in room.computed:
                 room.computed.append(computed)
+
+    def far(self, moves: list[ir.Move], least: float) -> bool:
+        """Is there room for these corners wherever the run counts the places to?"""
+        sizes = [self.size(one) for one in moves]
+        return all(size is not None and size <= SHARE * least for size in sizes)
 
     def whole(self, move: ir.Move, way: float) -> bool:
         """May the corner take more than half of a way at whose other end the robot stands?"""
