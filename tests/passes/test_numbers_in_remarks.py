@@ -58,3 +58,25 @@ def test_registers_keep_their_numbers_there_and_back() -> None:
         )
         text = "".join(file.data.decode("ascii") for file in back.files if file.path.endswith(".LS"))
         assert set(re.findall(r"\bR\[(\d+):(\w+)\]", text)) == {("12", "Parts"), ("3", "Limit")}, between
+
+
+KEPT = """MODULE n
+  PERS num R51:=0;
+  PERS num limit:=0; !R9
+  PERS num fixed:=40;
+  PROC main()
+    SpeedRefresh R51;
+    IF limit<fixed THEN
+      SetDO do1,1;
+    ENDIF
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_registers_that_nothing_sets_stay_registers() -> None:
+    """People set them on the controller; data that says no number is its value."""
+    read = read_sources([source_from_text("n.mod", KEPT)], "rapid", Diagnostics())
+    written = translate_program(read, "tp", "fanuc_m10ia", None, Diagnostics())
+    (text,) = (file.data.decode("ascii") for file in written.files if file.path == "MAIN.LS")
+    assert "OVERRIDE=R[51:R51]" in text and "R[9:limit]<40" in text

@@ -7,17 +7,16 @@ nothing but a number of the target (`!R7`, as a translation from there leaves it
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Set
 from dataclasses import replace
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
+from rpl.passes.legalise.facts.saidnumbers import said_number
 from rpl.passes.legalise.stages import legalising
 from rpl.source import Origin
 
 _NAMED = ir.Variable | ir.Parameter
-_NUMBER = re.compile(r"(?P<bank>[A-Z]+)(?P<number>\d+)")
 
 
 @legalising(unless=lambda context: not context.capabilities.storage.banks)
@@ -46,9 +45,9 @@ def _with_number(one: ir.Declaration, context: Context, banks: Set[str], own: Se
         case ir.Variable(name=name, origin=Origin(comments=(*others, comment))) if (
             comment.behind and name.lower() not in own
         ):
-            found = _NUMBER.fullmatch(comment.text.strip())
-            if found is not None and found["bank"] in banks and not isinstance(one.type, ir.ArrayType):
-                context.said_numbers[name.lower()] = found["bank"], int(found["number"])
+            said = said_number(replace(one, name=""), banks)
+            if said is not None and not isinstance(one.type, ir.ArrayType):
+                context.said_numbers[name.lower()] = said
                 return replace(one, origin=replace(one.origin, comments=tuple(others)))
     return one
 

@@ -1,15 +1,18 @@
 """Variables that begin with a value and that nothing assigns: they are constants, whatever their language calls them,
-so that they are written where they are used. Signals whose number is computed of them have that number.
+so that they are written where they are used. Signals whose number is computed of them have that number. What says the
+number that it has on the target's controller is a register that people set there, and stays data.
 """
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import replace
 
 from rpl import ir
 from rpl.ir.walk import rewrite, walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.facts.saidnumbers import said_number
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -23,6 +26,7 @@ _SIMPLE = (ir.IntType, ir.RealType, ir.BoolType)
 def fixed_data(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets where data takes numbers, and begins with its value at each start of the program."""
     unchanged, scopes = unchanged_in(program), ProgramScope(program)
+    banks = frozenset(bank.name for bank in context.capabilities.storage.banks.values())
     unchanged.assigned |= {
         node.counter.lower() for node in walk_for({"For"}, *program.modules) if isinstance(node, ir.For)
     }
@@ -30,7 +34,7 @@ def fixed_data(program: ir.Program, context: Context) -> ir.Program:
     modules = []
     for module in program.modules:
         scope = scopes.module(module)
-        declarations = tuple(_declared(one, unchanged, scope) for one in module.declarations)
+        declarations = tuple(_declared(one, unchanged, scope, banks) for one in module.declarations)
         modules.append(changed(module, declarations=declarations))
     done = changed(program, modules=tuple(modules))
     return program if done is program else _with_signals(done, unchanged)
@@ -54,10 +58,10 @@ def _lent(program: ir.Program) -> set[str]:
     return found
 
 
-def _declared(one: ir.Declaration, unchanged: Unchanged, scope: Scope) -> ir.Declaration:
+def _declared(one: ir.Declaration, unchanged: Unchanged, scope: Scope, banks: Set[str]) -> ir.Declaration:
     match one:
         case ir.Variable(storage="variable" | "persistent", initial=initial, type=type, name=name) if (
-            initial is not None
+            initial is not None and said_number(one, banks) is None
         ):
             changes = name.lower() in unchanged.assigned or name.lower() in unchanged.initialised
             if not changes and isinstance(type, _SIMPLE) and constant(initial, scope) is not None:
