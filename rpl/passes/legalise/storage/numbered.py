@@ -21,6 +21,7 @@ from rpl.passes.legalise.facts.entries import INITIALISE, moving_entries
 from rpl.passes.legalise.facts.liveness import Names
 from rpl.passes.legalise.facts.usage import each_expression, each_statement
 from rpl.passes.legalise.facts.values.firstreads import read_first
+from rpl.passes.legalise.kinds import kinds_in
 from rpl.passes.legalise.rewriting.operands import is_operand
 from rpl.passes.legalise.rewriting.startdata import assigned_at_start, entries_of
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
@@ -51,6 +52,9 @@ PERSISTENT = code(
 WHOLE = code("array-as-a-whole", Severity.LOSS, "{name}: the target has no arrays that are used as a whole")
 _SIMPLE = (ir.IntType, ir.RealType, ir.BoolType, ir.StringType, ir.CharType)
 _ELSE = {"IntType": "RealType", "RealType": "IntType", "CharType": "StringType"}
+_BESIDE = frozenset(
+    ("TaskControl", "DeclareInterrupt", "ConnectInterrupt", "Trigger", "DefineTrigger", "OnError", "Search")
+)
 HOME = "registers"
 
 
@@ -508,12 +512,13 @@ def _elements(value: ir.Expression | None, depth: int, count: int) -> list[tuple
 
 
 def _begins(program: ir.Program) -> Names:
-    """Data of modules (folded names) whose first values a run may read, wherever a person starts it."""
+    """Data of modules (folded names) whose first values a run may read, wherever a person starts it. Where something
+    runs beside the program, which may look at any time, that is all data."""
     declared = (one for module in program.modules for one in module.declarations)
     named = frozenset(one.name.lower() for one in declared if isinstance(one, ir.Variable))
-    background = {name for task in program.tasks if task.kind != "motion" for name in task.modules}
-    beside = [one.name for module in program.modules if module.name in background for one in module.routines]
-    return read_first(program, named, entries_of(program) | moving_entries(program), beside)
+    if kinds_in(program) & _BESIDE or any(task.kind != "motion" for task in program.tasks):
+        return named
+    return read_first(program, named, entries_of(program) | moving_entries(program))
 
 
 def _facts(program: ir.Program, scopes: ProgramScope) -> Facts:
