@@ -22,6 +22,7 @@ from rpl.passes.legalise.places.postures.jointgoals import joint_goals
 from rpl.passes.legalise.places.postures.nearjoints import near_joints
 from rpl.passes.legalise.places.postures.otherarms import places_on_other_arm
 from rpl.passes.legalise.places.postures.seenjoints import seen_joints
+from rpl.passes.legalise.places.postures.taughtpostures import taught_postures
 from rpl.passes.legalise.places.postures.turns import told_turns
 from rpl.passes.legalise.places.postures.unreachable import unreachable_moves
 from rpl.passes.legalise.places.threepoints import three_point_arcs
@@ -49,6 +50,7 @@ STAGE = Stage(
         three_point_arcs,
         circle_rules,
         destinations,
+        taught_postures,
         free_postures,
         *OTHER_ARM,
         told_turns,

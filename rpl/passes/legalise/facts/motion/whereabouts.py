@@ -1,14 +1,15 @@
 """Where the robot stands before each move, as far as it is constant: its joints, its flange, and the last place as it
 was programmed.
 
-One routine at a time: at its beginning, behind labels and behind calls that move the robot nothing is known. Tool and
-frame come from `flow`; where their values are not known, a place still tells how far it is to the next one that is
-programmed in the same tool and frame.
+A routine begins where the robot stands at all of its calls, and behind a call it stands where the routine ends; behind
+labels and loops nothing is known. Tool and frame come from `flow`; where their values are not known, a place still
+tells how far it is to the next one that is programmed in the same tool and frame.
 """
 
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,7 +18,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes import rigid
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context, array
-from rpl.passes.legalise.facts.effects import blocks
+from rpl.passes.legalise.facts.effects import blocks, statements_in
 from rpl.passes.legalise.facts.framesinforce import FramesInForce
 from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.kinds import walk_for
@@ -28,6 +29,8 @@ from rpl.passes.values import Record, Target, Value, component, pose_of
 
 _NEAR = "target_to_joints_near"
 _PLACES = ("tool", "base", "robot_root")
+_SAME_DEG = 0.01
+_ROUNDS = 4  # a routine that calls one that calls one that moves is known by then
 Joints = tuple[float, ...]
 Seen = tuple[ir.Expression | None, ir.Expression | None, rigid.Pose]
 
@@ -57,7 +60,8 @@ class Whereabouts:
     """`ways`: the way of each move by identity, where something of it is known. `starts`, `ends`: where the robot
     stands before each move and behind it. `converted`: the flags of places are the target's already. `settled`: places
     that the beginning of the program sets once and for all are known, too. Without `postures` no joints are looked for
-    at places, and no ways."""
+    at places, and no ways. `assuming`: from where nothing is known the arm goes to a place that says no posture as it
+    does from all places that are known, if that is the same."""
 
     def __init__(
         self,
@@ -66,6 +70,7 @@ class Whereabouts:
         converted: bool = False,
         settled: bool = False,
         postures: bool = True,
+        assuming: bool = False,
     ) -> None:
         self.converted, self.postures = converted, postures
         self.ways: dict[int, Way] = {}
@@ -83,11 +88,39 @@ class Whereabouts:
         self.displaced = any(
             one == ir.System("displacement") for one in walk_for({"system displacement"}, *program.modules)
         )
+        self.everywhere: tuple[Joints, ...] = ()  # from where the arm may come, when nothing else is known
+        self.begins: dict[int, Stand] = {}  # where the robot stands at all calls of a routine, by identity
+        self.finishes: dict[int, Stand] = {}  # where a routine leaves it
         if not self.displaced:
+            self.follow()
+            if assuming and self.arm is not None:
+                self.everywhere = tuple(sorted({one.joints for one in self.ends.values() if one.joints is not None}))
+                self.follow()
+
+    def follow(self) -> None:
+        """Through all routines, again while what is known of their beginnings and ends grows."""
+        calls = _calls(self.program)
+        for _ in range(_ROUNDS):
+            met: dict[int, list[Stand]] = {}
+            before = self.begins, self.finishes
+            self.met = met
+            finishes = {}
             for module, routine in self.scopes.routines():
-                self.scope: Scope = self.scopes.routine(module, routine)
-                for body in bodies(routine):
+                self.scope = self.scopes.routine(module, routine)
+                end = self.body(routine.body, self.begins.get(id(routine), NOWHERE_KNOWN))
+                handlers = [body for body in bodies(routine)[1:] if body]
+                for body in handlers:
                     self.body(body, NOWHERE_KNOWN)
+                if calls[routine.name.lower()] and not handlers and _ends_at_its_end(routine.body):
+                    finishes[id(routine)] = replace(end, seen=None)
+            self.finishes = finishes
+            self.begins = {
+                id(routine): replace(_common(met[id(routine)]), seen=None)
+                for _, routine in self.scopes.routines()
+                if 0 < len(met.get(id(routine), ())) == calls[routine.name.lower()]
+            }
+            if (self.begins, self.finishes) == before:
+                break
 
     def of(self, move: ir.Move) -> Way:
         return self.ways.get(id(move), Way(None, None, None))
@@ -105,16 +138,20 @@ class Whereabouts:
                 return NOWHERE_KNOWN
             case ir.Assign(target=ir.System(name=name) | ir.Field(base=ir.System(name=name))) if name in _PLACES:
                 return replace(stand, seen=None)
+            case ir.CallRoutine(name=name, dynamic=None, arguments=given) if (
+                routine := self.scope.routine(name)
+            ) is not None and not any(isinstance(one, ir.Call) for one in walk(given)):
+                self.met.setdefault(id(routine), []).append(stand)
+                return self.finishes.get(id(routine), NOWHERE_KNOWN) if self.moves(statement) else stand
         inner = blocks(statement)
         if not inner:
             return NOWHERE_KNOWN if self.moves(statement) else stand
         if isinstance(statement, LOOPS) and self.moves(statement):
             self.body(inner[0], NOWHERE_KNOWN)
             return NOWHERE_KNOWN
-        if any(_moves(one) for one in walk(statement)) or self.sets(statement):
-            ends = [self.body(one, stand) for one in inner]
-            return ends[0] if all(end == ends[0] for end in ends) else NOWHERE_KNOWN
-        return NOWHERE_KNOWN if self.moves(statement) else stand
+        if self.moves(statement) or self.sets(statement):
+            return _common([self.body(one, stand) for one in inner])
+        return stand
 
     def moves(self, statement: ir.Statement) -> bool:
         """Does it move the robot, set a place, or call what does?"""
@@ -208,9 +245,17 @@ class Whereabouts:
         if move.kind == "joint" and self.notation is not None:
             if near is not None or 0 < len(flags) == len(self.notation.fields):
                 found = self.notation.select(self.arm, matrix, flags, near).joints
+            elif not flags:
+                found = self.from_everywhere(matrix)
         elif near is not None and move.kind != "circular":  # an arc may turn an axis all around
             found = self.arm.nearest(matrix, near)
         return None if found is None else tuple(float(one) for one in found)
+
+    def from_everywhere(self, flange: Any) -> Any:
+        """The joints to which the arm goes from all places where it may be; None where these are not the same."""
+        found = [self.notation.select(self.arm, flange, {}, array(one)).joints for one in self.everywhere]
+        alike = all(one is not None and abs(one - found[0]).max() <= _SAME_DEG for one in found)
+        return found[0] if found and alike else None
 
     def way(self, move: ir.Move, start: Stand, end: Stand) -> Way:
         axes = None
@@ -244,6 +289,32 @@ class Whereabouts:
             return None, None
         back = frames.base.inverse
         return back.then(start.flange).then(frames.tool), back.then(end.flange).then(frames.tool)
+
+
+def _calls(program: ir.Program) -> Counter[str]:
+    """How often the routines (folded names) are named as what runs: those that may be started otherwise than by a plain
+    call once more."""
+    found = Counter[str](task.entry.lower() for task in program.tasks)
+    found.update((program.entry.lower(),) if program.entry else ())
+    for node in walk_for({"CallRoutine", "Call", "ConnectInterrupt", "TaskControl"}, *program.modules):
+        match node:
+            case ir.CallRoutine(dynamic=dynamic) if dynamic is not None:
+                found.update(one.name.lower() for module in program.modules for one in module.routines)
+            case ir.CallRoutine(name=name) | ir.Call(name=name) | ir.ConnectInterrupt(routine=name):
+                found[name.lower()] += 1
+            case ir.TaskControl(task=name):
+                found[name.lower()] += 1
+    return found
+
+
+def _ends_at_its_end(body: ir.Body) -> bool:
+    """Does nothing leave this body of a routine but its last statement?"""
+    return not any(isinstance(one, ir.Return | ir.Goto | ir.Raise) for one in statements_in(body[:-1]))
+
+
+def _common(stands: list[Stand]) -> Stand:
+    """Where the robot stands in any case."""
+    return stands[0] if all(one == stands[0] for one in stands) else NOWHERE_KNOWN
 
 
 def _whole(move: ir.Move) -> ir.Expression:

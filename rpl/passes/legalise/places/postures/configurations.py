@@ -437,6 +437,8 @@ class _Configurations(Rewriter):
         value = constant(expression, self.scope, None)
         if not isinstance(value, Target):
             return _Refused("the target is computed")
+        if had and not self.other_arm and value.type.notation == self.target_notation:
+            return {name: flag for name, flag in value.flags if flag is not None}  # said for the target already
         uses = self.uses.found.get(id(expression), set())
         if not uses:
             return _Refused("no move uses it")

@@ -10,85 +10,35 @@ names the difference.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
-from rpl import ir, registry
-from rpl.diagnostics import Severity, code
+from rpl import ir
+from rpl.passes.capabilities import Postures
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.motion.whereabouts import Whereabouts
 from rpl.passes.legalise.facts.values.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.places.postures.choices import ASSUMED, FREE, Choices, to_a_place
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.values import Target, real
-
-FREE = code(
-    "posture-left-free",
-    Severity.WARNING,
-    "this place says nothing about the arm's posture: the source's controller and the target's choose it by other "
-    "rules, and where the arm stands before is not known here",
-    "write the posture into the place, or move to joints before",
-)
-ASSUMED = code(
-    "posture-as-from-known",
-    Severity.WARNING,
-    "this place says nothing about the arm's posture, and where the arm stands before is not known here: it goes to "
-    "the joints that the source's controller takes from every place that is known in this program",
-    "write the posture into the place, or move to joints before",
-)
-_SAME_DEG = 0.01
-_TRIED = 60  # pairs of places, spread evenly by chance over the ranges of the axes
-_OFTEN = 0.05  # of them; what differs less often is a matter of the limits of the axes
 
 
 @legalising()
 def free_postures(program: ir.Program, context: Context) -> ir.Program:
     """Only on the arm that the program was written for, and between notations whose rules differ on it."""
-    arm, other, can = context.robot, context.to_robot, context.capabilities
-    if arm is None or can.carries_rules or not context.foreign or (other is not None and other is not arm):
+    choices = Choices.of(context)
+    if choices is None or not any(to_a_place(one) for one in walk_for({"Move"}, *program.modules)):
         return program
-    ours, theirs = registry.dialect(context.source).notation, registry.dialect(can.places.notation).notation
-    if ours is None or theirs is None or not any(_may_be_free(one) for one in walk_for({"Move"}, *program.modules)):
-        return program
-    return _Free(program, context, ours, theirs).program()
-
-
-def _may_be_free(node: object) -> bool:
-    return isinstance(node, ir.Move) and node.kind == "joint" and node.relative is None
-
-
-@lru_cache(maxsize=64)
-def _apart(arm: Any, ours: Any, theirs: Any) -> bool:
-    """Do the controllers often choose otherwise on this arm, with nothing said? ours, theirs: classes of notations."""
-    import numpy as np  # most translations ask nothing of the arm
-
-    low, high = arm.limits[:, 0], arm.limits[:, 1]
-    spread = np.random.default_rng(1).uniform(-0.9, 0.9, size=(_TRIED, 2, len(low)))
-    pairs = np.clip((low + high) / 2 + spread * (high - low) / 2, -170.0, 170.0)
-    first, second = ours(), theirs()
-    differ = sum(_differ(arm, first, second, arm.forward(to), at) for at, to in pairs)
-    return differ > _OFTEN * _TRIED
-
-
-def _chosen(arm: Any, notation: Any, flange: Any, before: Any) -> Any:
-    return notation.select(arm, flange, {}, before).joints
-
-
-def _differ(arm: Any, ours: Any, theirs: Any, flange: Any, before: Any) -> bool:
-    """Do both controllers come there, but otherwise?"""
-    first = _chosen(arm, ours, flange, before)
-    second = None if first is None else _chosen(arm, theirs, flange, before)
-    return second is not None and bool(abs(first - second).max() > _SAME_DEG)
+    return _Free(program, context, choices).program()
 
 
 class _Free(Rewriter):
-    def __init__(self, program: ir.Program, context: Context, ours: Any, theirs: Any) -> None:
+    def __init__(self, program: ir.Program, context: Context, choices: Choices) -> None:
         super().__init__(program, context)
-        self.arm: Any = context.robot
-        self.notations = ours, theirs
-        self.ours, self.theirs = ours(), theirs()
+        self.choices = choices
 
     # What costs something is asked when the first move needs it: few do.
 
@@ -103,11 +53,11 @@ class _Free(Rewriter):
     @cached_property
     def stands(self) -> Whereabouts:
         """Followed through the program when first asked for."""
-        return Whereabouts(self.source, self.context)
+        return Whereabouts(self.source, self.context, assuming=True)
 
     def statement(self, statement: ir.Statement) -> list[ir.Statement]:
-        if isinstance(statement, ir.Move) and _may_be_free(statement) and self.is_free(statement):
-            return [self.move(statement)] if _apart(self.arm, *self.notations) else [statement]
+        if isinstance(statement, ir.Move) and to_a_place(statement) and self.is_free(statement):
+            return [self.move(statement)] if self.choices.apart else [statement]
         return super().statement(statement)
 
     def is_free(self, move: ir.Move) -> bool:
@@ -130,29 +80,25 @@ class _Free(Rewriter):
             return move
         flange = np.array(end.flange.matrix)
         if before.joints is None:
-            joints = self.from_everywhere(flange)
+            joints = self.choices.from_everywhere(flange, self.stands)
             self.context.diagnostics.report(FREE if joints is None else ASSUMED, move.origin)
             return move if joints is None else self.to_joints(move, joints)
         at = np.array(before.joints)
-        if not _differ(self.arm, self.ours, self.theirs, flange, at):
+        if not self.choices.differ(flange, at):
             return move
-        return self.to_joints(move, _chosen(self.arm, self.ours, flange, at))
-
-    def from_everywhere(self, flange: Any) -> Any:
-        """The joints that the source's controller takes from all places where the arm is known to be; None where these
-        are not the same."""
-        import numpy as np
-
-        known = {one.joints for one in self.stands.ends.values() if one.joints is not None}
-        found = [_chosen(self.arm, self.ours, flange, np.array(one)) for one in sorted(known)]
-        if not found or any(one is None or abs(one - found[0]).max() > _SAME_DEG for one in found):
-            return None
-        return found[0]
+        return self.to_joints(move, self.choices.source(flange, at))
 
     def to_joints(self, move: ir.Move, joints: Any) -> ir.Move:
+        """To these joints; to the solution of the place next to them, where the target's moves can be told so."""
+        if self.context.capabilities.places.postures is Postures.JOINTS:
+            return replace(move, target=ir.Builtin("target_to_joints_near", (move.target, _written(joints, 0))))
         self.written.tell(move, self.scope, move.target)
-        entries = tuple((name, real(round(float(one), 9))) for name, one in zip(ir.AXES, joints, strict=False))
-        return replace(move, target=ir.Aggregate(entries, type_name="joints"))
+        return replace(move, target=_written(joints, 9))
+
+
+def _written(joints: Any, digits: int) -> ir.Expression:
+    entries = tuple((name, real(round(float(one), digits))) for name, one in zip(ir.AXES, joints, strict=False))
+    return ir.Aggregate(entries, type_name="joints")
 
 
 __all__ = ["free_postures"]

@@ -65,7 +65,7 @@ class _Turns(Rewriter):
         self.arm: Any = context.to_robot or context.robot
         make = registry.dialect(context.capabilities.places.notation).notation
         self.notation: Any = None if make is None else make()
-        self.stands = Whereabouts(program, context, converted=True)
+        self.stands = Whereabouts(program, context, converted=True, assuming=True)
         self.low, self.high = self.range(program)
 
     def range(self, program: ir.Program) -> tuple[Any, Any]:

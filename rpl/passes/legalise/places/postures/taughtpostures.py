@@ -1,0 +1,214 @@
+"""The posture of taught places that say none (URScript, V+), for targets whose places say one: the place gets the posture
+in which the source's controller comes to it, as if it had been taught on the target.
+
+A place and all that is worked out of it go to moves together, and one posture must serve them all. A move whose end the
+run decides counts as if it went to the taught place itself. Where the postures are not the same, or are known nowhere,
+the places stay as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+
+from rpl import ir
+from rpl.diagnostics import Severity, code
+from rpl.ir.walk import bodies
+from rpl.passes.capabilities import Postures
+from rpl.passes.fold import constant
+from rpl.passes.legalise.context import Context, array
+from rpl.passes.legalise.facts.motion.whereabouts import NOWHERE_KNOWN, Whereabouts
+from rpl.passes.legalise.facts.targetuses import Uses
+from rpl.passes.legalise.facts.usage import each_statement
+from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.places.postures.choices import ASSUMED, SAME_DEG, Choices, to_a_place
+from rpl.passes.legalise.places.postures.writtenplaces import inserted
+from rpl.passes.legalise.rewriting.walk import Rewriter
+from rpl.passes.legalise.stages import legalising
+from rpl.passes.scope import Scope
+from rpl.passes.typewords import type_word
+from rpl.passes.values import Target, moved
+from rpl.source import Origin
+
+AS_TAUGHT = code(
+    "posture-as-taught",
+    Severity.WARNING,
+    "this place is worked out in the run of one that says nothing about the arm's posture: the arm comes here in the "
+    "posture in which the source's controller comes to the taught place itself",
+    "look on the target that the arm comes to all of these places in the posture that is meant",
+)
+_SHIFTS = ("offset", "tool_offset")
+
+
+@legalising(unless=lambda context: context.capabilities.places.postures is not Postures.FLAGS, sees=("Move",))
+def taught_postures(program: ir.Program, context: Context) -> ir.Program:
+    """Only on the arm that the program was written for, where a controller would otherwise choose another posture."""
+    choices = Choices.of(context)
+    word = type_word(ir.TargetType(context.capabilities.places.notation))
+    places = {
+        id(one): one
+        for one in walk_for({"Aggregate"}, *program.modules)
+        if isinstance(one, ir.Aggregate) and one.type_name == word and {name for name, _ in one.entries} <= {*ir.POSE}
+    }
+    if choices is None or not places or not choices.apart:
+        return program
+    return _Taught(program, context, choices, places).program()
+
+
+@dataclass(frozen=True, slots=True)
+class _Going:
+    """A joint move to one of such places: the joints that the source's controller takes there (n,) and how far that is
+    known, the flange there (4, 4), and where the arm comes from (n,), if that is known."""
+
+    place: int
+    move: ir.Move
+    joints: Any
+    flange: Any
+    before: Any
+    computed: bool
+
+
+@dataclass(slots=True)
+class _Group:
+    """Places that the same moves go to, and these moves; `open`: one of them is known nowhere."""
+
+    places: set[int] = field(default_factory=set)
+    goings: list[_Going] = field(default_factory=list)
+    open: bool = False
+
+
+class _Taught(Rewriter):
+    def __init__(self, program: ir.Program, context: Context, choices: Choices, places: dict[int, ir.Aggregate]) -> None:
+        super().__init__(program, context)
+        self.choices, self.places = choices, places
+        self.uses = Uses.of(program, self.scopes)
+        self.stands = Whereabouts(program, context, assuming=True)
+        self.groups = {key: _Group({key}) for key in places}
+        for module, routine in self.scopes.routines():
+            scope = self.scopes.routine(module, routine)
+            for body in bodies(routine):
+                each_statement(body, partial(self.look, scope=scope))
+        self.flags: dict[int, dict[str, int]] = {}
+        told: dict[int, Origin] = {}
+        for group in {id(one): one for one in self.groups.values()}.values():
+            self.settle(group, told)
+        for origin in told.values():
+            context.diagnostics.report(ASSUMED, origin)
+
+    # ---- what goes where
+
+    def look(self, statement: ir.Statement, scope: Scope) -> None:
+        if not isinstance(statement, ir.Move) or not to_a_place(statement):
+            return
+        reached = [key for key in self.places if key in self.reached(statement.target, scope)]
+        if not reached:
+            return
+        group = self.joined(reached)
+        for key in reached:
+            going = self.going(statement, key, scope)
+            if going is None:
+                group.open = True
+            else:
+                group.goings.append(going)
+
+    def reached(self, place: ir.Expression, scope: Scope) -> set[int]:
+        """What the posture of a place may come from; of a function that hands on the posture of its argument, of the
+        one that it is given here."""
+        inner = place
+        while isinstance(inner, ir.Builtin) and inner.function in _SHIFTS:
+            inner = inner.arguments[0]
+        routine = scope.routine(inner.name) if isinstance(inner, ir.Call) else None
+        if routine is None or not isinstance(inner, ir.Call):
+            return self.uses.reach(place, scope)
+        given = {id(one) for one in routine.parameters}
+        from_within = self.uses.sources.get(id(routine), set())
+        if not from_within <= given:
+            return self.uses.reach(place, scope)
+        found: set[int] = set()
+        for one, argument in zip(routine.parameters, inner.arguments, strict=False):
+            if id(one) in from_within and argument.value is not None:
+                found |= self.uses.reach(argument.value, scope)
+        return found
+
+    def joined(self, keys: list[int]) -> _Group:
+        """One group for these places."""
+        first, *others = [self.groups[key] for key in keys]
+        for one in others:
+            if one is not first:
+                first.places |= one.places
+                first.goings += one.goings
+                first.open = first.open or one.open
+                self.groups.update((key, first) for key in one.places)
+        return first
+
+    def going(self, move: ir.Move, key: int, scope: Scope) -> _Going | None:
+        start, end = self.stands.starts.get(id(move), NOWHERE_KNOWN), self.stands.ends.get(id(move), NOWHERE_KNOWN)
+        flange = end.flange or self.at_the_place(move, key, scope)
+        if move.search is not None or flange is None:
+            return None
+        matrix = array(flange.matrix)
+        before = None if start.joints is None else array(start.joints)
+        joints = self.choices.source(matrix, before) if before is not None else self.everywhere(matrix)
+        return None if joints is None else _Going(key, move, joints, matrix, before, end.flange is None)
+
+    def everywhere(self, flange: Any) -> Any:
+        return self.choices.from_everywhere(flange, self.stands)
+
+    def at_the_place(self, move: ir.Move, key: int, scope: Scope) -> Any:
+        """The flange as if the move went to the taught place itself, moved by what is constant."""
+        frames, place = self.stands.flow.frames.get(id(move)), constant(self.places[key], scope)
+        if frames is None or not isinstance(place, Target):
+            return None
+        match move.target:
+            case ir.Builtin(function=function, arguments=(_, *rest)) if function in _SHIFTS:
+                numbers = [constant(one, scope) for one in rest]
+                given = [float(one) for one in numbers if isinstance(one, int | float)]
+                shifted = moved(function, place, given) if len(given) == len(numbers) else None
+                place = shifted if isinstance(shifted, Target) else place
+        return frames.flange(place.pose)
+
+    # ---- which posture
+
+    def settle(self, group: _Group, told: dict[int, Origin]) -> None:
+        """Give the places of a group their postures, where one serves all moves and some move needs it."""
+        if group.open or not any(map(self.needed, group.goings)):
+            return
+        found: dict[int, dict[str, int]] = {}
+        for going in group.goings:
+            flags = self.choices.theirs.encode(self.choices.arm, going.joints)
+            if found.setdefault(going.place, flags) != flags or not self.serves(going, flags):
+                return
+        self.flags |= found
+        for going in group.goings:
+            if going.computed:
+                self.context.diagnostics.report(AS_TAUGHT, going.move.origin)
+            elif going.before is None:
+                told[id(going.move)] = going.move.origin
+
+    def needed(self, going: _Going) -> bool:
+        """Would the target's controller choose otherwise, or may it?"""
+        return going.before is None or self.choices.differ(going.flange, going.before)
+
+    def serves(self, going: _Going, flags: dict[str, int]) -> bool:
+        """Does the target's controller come there as the source's does?"""
+        before = going.joints if going.before is None else going.before
+        joints = self.choices.target(going.flange, before, flags)
+        return joints is not None and bool(abs(joints - going.joints).max() <= SAME_DEG)
+
+    def expression(self, expression: ir.Expression) -> ir.Expression:
+        flags = self.flags.get(id(expression))
+        if flags is None or not isinstance(expression, ir.Aggregate):
+            return super().expression(expression)
+        return replace(expression, entries=inserted(list(self.entries(expression)), [*_words(flags)]))
+
+    def entries(self, place: ir.Aggregate) -> Iterator[tuple[str, ir.Expression]]:
+        yield from ((name, value) for name, value in place.entries if name is not None)
+
+
+def _words(flags: dict[str, int]) -> Iterator[tuple[str | None, ir.Expression]]:
+    yield from ((name, ir.IntLiteral(value)) for name, value in flags.items())
+
+
+__all__ = ["taught_postures"]
