@@ -66,7 +66,7 @@ CAPABILITIES = Capabilities(
     conversions=frozenset(("real", "trunc", "round_half_away", "bit", "truth", "floor", "code", "char")),
     places=Places(
         notation="inform",
-        rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.TURNS, PlaceRule.UNTYPED)),
+        rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.POSTURE_SAID, PlaceRule.TURNS, PlaceRule.UNTYPED)),
         move_functions=frozenset(("displaced",)),  # SFTON
     ),
     motion=Motion(

@@ -74,7 +74,7 @@ CAPABILITIES = Capabilities(
     places=Places(
         notation="krl",
         kinematics=("INVERSE", "FORWARD"),
-        rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.PARTIAL, PlaceRule.TURNS)),
+        rules=frozenset((PlaceRule.AXIS_SIGNS, PlaceRule.KEEP_ANGLES, PlaceRule.PARTIAL, PlaceRule.TURNS)),
     ),
     motion=Motion(relative=True, paths=frozenset((PathRule.ARCS_BY_ANGLE, PathRule.EVEN_WRIST))),
     settings=Settings(modal=True),

@@ -99,10 +99,11 @@ CAPABILITIES = Capabilities(
     places=Places(
         notation="tp",
         move_functions=frozenset((":", "compose", "element_sum", "displaced_in_tool", "joints_to_target", "pose_of")),
-        rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.TURNS, PlaceRule.UNTYPED)),
+        rules=frozenset((PlaceRule.KEEP_ANGLES, PlaceRule.POSTURE_SAID, PlaceRule.TURNS, PlaceRule.UNTYPED)),
     ),
     motion=Motion(
         relative=True,
+        tool_ways=False,  # INC is in the axes of the frame
         turned_ways=frozenset((TurnedWay.JOINT, TurnedWay.TOOL)),
         search_results=frozenset((SearchResult.FOUND, SearchResult.HIT)),
         # SEARCHED_DATA, M: SKIP CONDITION takes flags as it takes inputs and registers

@@ -15,6 +15,7 @@ from rpl.ir.walk import walk
 from rpl.passes.fold import constant, constant_number
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import base_name
+from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_bodies
@@ -28,6 +29,7 @@ FLAGS_LEFT_OUT = code(
 )
 
 _PARTS = ("x", "y", "z", "a", "b", "c", "trans", "rot")
+_FLAGGED = ("current_target", "joints_to_target")
 _COMPUTED = (
     *("element_sum", "element_difference", "element_product", "displaced", "displaced_in_tool"),
     *("offset", "tool_offset", "rel_tool"),
@@ -36,7 +38,10 @@ _COMPUTED = (
 
 @legalising()
 def changed_places(program: ir.Program, context: Context) -> ir.Program:
-    """The program in whose joint moves changed targets are poses."""
+    """The program in whose joint moves changed targets are poses; where no place says a posture there is none to leave
+    out."""
+    if not says_postures(program):
+        return program
     changed = _changed(program)
     scopes = ProgramScope(program)
 
@@ -55,6 +60,19 @@ def changed_places(program: ir.Program, context: Context) -> ir.Program:
         return edit_bodies(routine, body)
 
     return edit_each(program, lambda module, one: work(one, scopes.routine(module, one)))
+
+
+def says_postures(program: ir.Program) -> bool:
+    """May a place of the program have flags? One that is written out with more than its pose has, and the place of the
+    robot."""
+    for one in walk_for({"Aggregate", *(f"function {name}" for name in _FLAGGED)}, *program.modules):
+        match one:
+            case ir.Aggregate(type_name=word, entries=entries):
+                if (word is None or word.startswith("target")) and not {name for name, _ in entries} <= {*ir.POSE}:
+                    return True
+            case ir.Builtin(function=name) if name in _FLAGGED:
+                return True
+    return False
 
 
 def _without_flags(target: ir.Expression, scope: Scope) -> ir.Expression:

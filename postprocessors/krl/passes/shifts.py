@@ -1,7 +1,7 @@
 """Shifts of places as people write them in KRL, which has no function for them: a constant one is a frame of the data
 list in front of the place (`LIN shift_z100:XPick`; behind it where it goes along the tool), a computed one is the place
 with other components (`Box=XCorner`, `Box.X=XCorner.X+...`). A product of frames has no arm configuration, so a joint
-move that asks for one goes to such a place as well.
+move to a place that may say one goes to such a place as well.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 from rpl.writing.numbers import added
 
+from .changedplaces import says_postures
+
 __all__ = ["said_shifts"]
 
 _PARTS = ("x", "y", "z")
@@ -29,7 +31,7 @@ _PARTS = ("x", "y", "z")
 @legalising(sees=("function offset", "function tool_offset"))
 def said_shifts(program: ir.Program, context: Context) -> ir.Program:
     """What is neither stays a function."""
-    worker, scopes = _Shifts(context, has_external_axes(program)), ProgramScope(program)
+    worker, scopes = _Shifts(context, has_external_axes(program), says_postures(program)), ProgramScope(program)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
         worker.enter(scopes.routine(module, routine))
@@ -42,10 +44,12 @@ def said_shifts(program: ir.Program, context: Context) -> ir.Program:
 
 @dataclass(slots=True)
 class _Shifts:
-    """`moved`: the variables of the present routine for places with other components, by the name of the place."""
+    """`external`, `postures`: do places say external axes, postures? `moved`: the
+    variables of the present routine for places with other components, by the name of the place."""
 
     context: Context
     external: bool
+    postures: bool
     shifts: ShiftFrames = field(init=False)
     scope: Scope = field(init=False)
     moved: dict[str, ir.Variable] = field(init=False)
@@ -120,7 +124,8 @@ class _Shifts:
         """Does a move there ask for nothing that a product of frames lacks?"""
         if not shifted.arguments or not isinstance(type_of(shifted.arguments[0], self.scope), ir.TargetType):
             return True
-        return kind != "joint" and (shifted.function == "offset" or not self.external)
+        asks = kind == "joint" and self.postures
+        return not asks and (shifted.function == "offset" or not self.external)
 
     def in_front(self, target: ir.Expression) -> ir.Expression:
         match target:

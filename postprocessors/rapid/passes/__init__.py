@@ -13,12 +13,10 @@ from .fullzones import full_zones
 from .joinedmodules import joined_modules
 from .motiondata import named_motion_data
 from .offsets import points_offset
-from .placedata import places_as_targets
 from .tooldata import tool_data
 from .traps import priorities_to_traps
 
 PASSES: tuple[Placed, ...] = (
-    Placed(places_as_targets, "source", behind="rotation_vectors"),
     Placed(points_offset, "source", behind="rotation_vectors"),
     Placed(constant_data, "source", behind="rotation_vectors"),
     Placed(error_numbers, "errors", behind="interrupt_places"),

@@ -73,6 +73,9 @@ class Motion:
     relative: bool = False
     """A move may go on from where the one before it ends."""
 
+    tool_ways: bool = True
+    """Such a move may go along the tool (else it goes to the place before moved along it, where that is known)."""
+
     turned_ways: frozenset[TurnedWay] = frozenset(TurnedWay)
     """The relative moves that may turn the tool (the others go to a computed place)."""
 

@@ -39,6 +39,12 @@ class PlaceRule(StrEnum):
     """A joint move to a place comes there in the turns that are told with it, by flags or by the joints that it is
     solved near to (else the controller takes each axis the shortest way)."""
 
+    POSTURE_SAID = auto()
+    """Every place says a posture, and a joint move heeds it."""
+
+    AXIS_SIGNS = auto()
+    """A posture is the sign of every axis: a place that is worked out of a taught one may need another."""
+
 
 @dataclass(frozen=True, slots=True)
 class Places:

@@ -17,6 +17,7 @@ from rpl.passes.capabilities import PlaceRule
 from rpl.passes.fold import Unchanged, constant, constant_number, lasting
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.paths.movebefore import MovesBefore, passes, says_how
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -51,12 +52,13 @@ _POSITION = ("x", "y", "z")
 def whole_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without relative moves or partial targets."""
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
+    before = MovesBefore(program, unchanged)
     goes_on = any(isinstance(node, ir.Move) and _goes_on(node) for node in walk_for({"Move"}, *program.modules))
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            worker = Whole(context, scopes.routine(module, routine), unchanged, goes_on)
+            worker = Whole(context, scopes.routine(module, routine), unchanged, before, goes_on)
             done = edit_bodies(routine, worker.body)
             routines.append(replace(done, declarations=(*routine.declarations, *worker.declared)))
         modules.append(replace(module, routines=tuple(routines)))
@@ -67,8 +69,11 @@ class Whole:
     """The moves of one routine, and the variables that they need. `goes_on`: does any move of the program go on into
     the next one?"""
 
-    def __init__(self, context: Context, scope: Scope, unchanged: Unchanged, goes_on: bool = False) -> None:
-        self.context, self.scope, self.unchanged, self.goes_on = context, scope, unchanged, goes_on
+    def __init__(
+        self, context: Context, scope: Scope, unchanged: Unchanged, before: MovesBefore, goes_on: bool = False
+    ) -> None:
+        self.context, self.scope, self.unchanged = context, scope, unchanged
+        self.before, self.goes_on = before, goes_on
         self.declared: list[ir.Declaration] = []
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -86,9 +91,11 @@ class Whole:
         return tuple(done)
 
     def needs_work(self, move: ir.Move) -> bool:
+        can = self.context.capabilities
         if move.relative is not None:
-            return not self.context.capabilities.motion.relative
-        return PlaceRule.PARTIAL not in self.context.capabilities.places.rules and self.missing(move.target)
+            along_tool = move.relative == "tool" and isinstance(move.target, ir.Aggregate)
+            return not can.motion.relative or (along_tool and not can.motion.tool_ways)
+        return PlaceRule.PARTIAL not in can.places.rules and self.missing(move.target)
 
     def is_partial_way(self, move: ir.Move) -> bool:
         """A way from here that the target can say, of some components that are computed: the place that it is computed
@@ -190,7 +197,7 @@ class Whole:
                     return target if whole and isinstance(self.type_of(target), ir.JointsType) else None
                 case ir.Assign(target=ir.System()):
                     continue  # tools and frames do not move the joints
-            if not _passes(statement):
+            if not passes(statement):
                 return None
         return None
 
@@ -222,7 +229,14 @@ class Whole:
         if any(name in values and not _is_zero(values[name]) for name in ir.ANGLES):
             self.context.diagnostics.report(TURNED, move.origin)
             return [move]
-        start = self.last_target(done, move) or self.noted(done, move)
+        seen = self.seen_alike(done, move)
+        start = self.last_target(done, seen)
+        if start is not None:
+            move = seen
+        elif self.context.capabilities.motion.relative:
+            return [move]  # as the target says it, from where the robot stands
+        else:
+            start = self.noted(done, move)
         if start is None:
             self.stop_before(done, move)
             start = here(move)
@@ -249,21 +263,26 @@ class Whole:
 
     def last_target(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
         """The target of the move before, when nothing in between can have moved the robot or changed the frame."""
-        for at in range(len(done) - 1, -1, -1):
-            statement = done[at]
-            match statement:
-                case ir.Move(target=target, relative=None, search=None):
-                    same = statement.tool == move.tool and statement.frame == move.frame and not statement.settings
-                    if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near":
-                        target = target.arguments[0]  # the same place, in a posture of its own
-                    if not same or isinstance(self.type_of(target), ir.JointsType | None):
-                        return None
-                    if not (isinstance(target, ir.Aggregate | ir.Builtin) or _is_place(target)):
-                        return None
-                    return target if _is_steady(target) else self.kept(done, at, statement)
-            if not _passes(statement):
-                return None
-        return None
+        at = self.before.found(done)
+        before = None if at is None else done[at]
+        if at is None or not isinstance(before, ir.Move) or before.relative is not None or before.search is not None:
+            return None
+        target = before.target
+        same = before.tool == move.tool and before.frame == move.frame and says_how(before)
+        if isinstance(target, ir.Builtin) and target.function == "target_to_joints_near":
+            target = target.arguments[0]  # the same place, in a posture of its own
+        if not same or isinstance(self.type_of(target), ir.JointsType | None):
+            return None
+        if not (isinstance(target, ir.Aggregate | ir.Builtin) or _is_product(target) or _is_place(target)):
+            return None
+        lasts = _is_steady(target) and not self.before.may_change(target, done[at + 1 :], self.scope)
+        return target if lasts else self.kept(done, at, before)
+
+    def seen_alike(self, done: list[ir.Statement], move: ir.Move) -> ir.Move:
+        """The move in the frame of the one before: along the tool it is the same way in every frame."""
+        at = self.before.found(done) if move.relative == "tool" and move.frame is None else None
+        before = None if at is None else done[at]
+        return replace(move, frame=before.frame) if isinstance(before, ir.Move) else move
 
     def type_of(self, target: ir.Expression) -> ir.Type | None:
         """The type of a target, which may rest on a variable that was made here."""
@@ -290,7 +309,7 @@ class Whole:
     def noted(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
         """Where the last move of the block before ends: a variable that its moves set, where they can be blended."""
         at = len(done) - 1
-        while at >= 0 and _passes(done[at]):
+        while at >= 0 and passes(done[at]):
             at -= 1
         if at < 0 or not isinstance(done[at], _BLOCKS):
             return None
@@ -361,18 +380,6 @@ def here(move: ir.Move) -> ir.Expression:
     return ir.Builtin("current_target", (move.tool or ir.System("tool"), move.frame or ir.System("base")))
 
 
-def _passes(statement: ir.Statement) -> bool:
-    """Can neither the robot nor the frame be another one behind it?"""
-    match statement:
-        case ir.Assign(target=ir.Signal()) | ir.Nothing() | ir.Wait() | ir.WaitUntil() | ir.WaitForMotion():
-            return True
-        case ir.LookAhead():
-            return True
-        case ir.Assign(target=ir.System(name=name)):
-            return name not in ("tool", "base")
-    return False
-
-
 def _is_zero(value: ir.Expression) -> bool:
     return isinstance(value, ir.IntLiteral | ir.RealLiteral) and value.value == 0
 
@@ -391,6 +398,11 @@ def _is_steady(target: ir.Expression) -> bool:
             case ir.Builtin(function=function) if function in _MOVING:
                 return False
     return True
+
+
+def _is_product(target: ir.Expression) -> bool:
+    """A place that is seen from a frame with a name."""
+    return isinstance(target, ir.Binary) and target.op == ":" and _is_place(target.left) and _is_place(target.right)
 
 
 def _is_place(target: ir.Expression) -> bool:

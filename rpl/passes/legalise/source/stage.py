@@ -25,6 +25,7 @@ from rpl.passes.legalise.source.places.homes import home_positions
 from rpl.passes.legalise.source.places.keptangles import named_angles
 from rpl.passes.legalise.source.places.knownshifts import known_shifts
 from rpl.passes.legalise.source.places.movedcopies import moved_copies
+from rpl.passes.legalise.source.places.placedata import places_as_targets
 from rpl.passes.legalise.source.places.pulses import fold_pulses
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
@@ -99,6 +100,7 @@ STAGE = Stage(
         neutral_functions,
         named_angles,
         rotation_vectors,
+        places_as_targets,
         levels_to_distances,
         displacements,
         whole_settings,

@@ -24,7 +24,7 @@ from rpl.passes.legalise.facts.usage import doing
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.jumps import LOOPS
 from rpl.passes.legalise.rewriting.walk import unchanged_in
-from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.scope import ProgramScope
 from rpl.passes.values import Record, Target, Value, component, pose_of
 
 _NEAR = "target_to_joints_near"

@@ -1,5 +1,5 @@
-"""The posture of taught places that say none (URScript, V+), for targets whose places say one: the place gets the posture
-in which the source's controller comes to it, as if it had been taught on the target.
+"""The posture of taught places that say none (URScript, V+), for targets whose places say one: the place gets the
+posture in which the source's controller comes to it, as if it had been taught on the target.
 
 A place and all that is worked out of it go to moves together, and one posture must serve them all. A move whose end the
 run decides counts as if it went to the taught place itself. Where the postures are not the same, or are known nowhere,
@@ -16,7 +16,7 @@ from typing import Any
 from rpl import ir
 from rpl.diagnostics import Severity, code
 from rpl.ir.walk import bodies
-from rpl.passes.capabilities import Postures
+from rpl.passes.capabilities import PlaceRule, Postures
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Context, array
 from rpl.passes.legalise.facts.motion.whereabouts import NOWHERE_KNOWN, Whereabouts
@@ -80,7 +80,9 @@ class _Group:
 
 
 class _Taught(Rewriter):
-    def __init__(self, program: ir.Program, context: Context, choices: Choices, places: dict[int, ir.Aggregate]) -> None:
+    def __init__(
+        self, program: ir.Program, context: Context, choices: Choices, places: dict[int, ir.Aggregate]
+    ) -> None:
         super().__init__(program, context)
         self.choices, self.places = choices, places
         self.uses = Uses.of(program, self.scopes)
@@ -91,11 +93,9 @@ class _Taught(Rewriter):
             for body in bodies(routine):
                 each_statement(body, partial(self.look, scope=scope))
         self.flags: dict[int, dict[str, int]] = {}
-        told: dict[int, Origin] = {}
-        for group in {id(one): one for one in self.groups.values()}.values():
-            self.settle(group, told)
-        for origin in told.values():
-            context.diagnostics.report(ASSUMED, origin)
+        groups = list({id(one): one for one in self.groups.values() if one.goings and not one.open}.values())
+        if self.wanted(groups):
+            self.settle(groups)
 
     # ---- what goes where
 
@@ -151,7 +151,10 @@ class _Taught(Rewriter):
         matrix = array(flange.matrix)
         before = None if start.joints is None else array(start.joints)
         joints = self.choices.source(matrix, before) if before is not None else self.everywhere(matrix)
-        return None if joints is None else _Going(key, move, joints, matrix, before, end.flange is None)
+        computed = end.flange is None
+        if joints is None or (computed and PlaceRule.AXIS_SIGNS in self.context.capabilities.places.rules):
+            return None
+        return _Going(key, move, joints, matrix, before, computed)
 
     def everywhere(self, flange: Any) -> Any:
         return self.choices.from_everywhere(flange, self.stands)
@@ -171,21 +174,36 @@ class _Taught(Rewriter):
 
     # ---- which posture
 
-    def settle(self, group: _Group, told: dict[int, Origin]) -> None:
-        """Give the places of a group their postures, where one serves all moves and some move needs it."""
-        if group.open or not any(map(self.needed, group.goings)):
-            return
+    def wanted(self, groups: list[_Group]) -> bool:
+        """Are postures told? Where the target's places always tell one, where its controller would choose otherwise,
+        and where all of them are known: else it chooses as the source's does in the run."""
+        goings = [one for group in groups for one in group.goings]
+        known = all(one.before is not None and not one.computed for one in goings)
+        said = PlaceRule.POSTURE_SAID in self.context.capabilities.places.rules
+        return said or known or any(map(self.needed, goings))
+
+    def settle(self, groups: list[_Group]) -> None:
+        """Give the places of each group their postures, where one serves all of its moves."""
+        told: dict[int, Origin] = {}
+        for group in groups:
+            found = self.postures(group)
+            self.flags |= found
+            for going in group.goings if found else ():
+                if going.computed:
+                    self.context.diagnostics.report(AS_TAUGHT, going.move.origin)
+                elif going.before is None:
+                    told[id(going.move)] = going.move.origin
+        for origin in told.values():
+            self.context.diagnostics.report(ASSUMED, origin)
+
+    def postures(self, group: _Group) -> dict[int, dict[str, int]]:
+        """The flags of each place; none where they do not serve a move."""
         found: dict[int, dict[str, int]] = {}
         for going in group.goings:
             flags = self.choices.theirs.encode(self.choices.arm, going.joints)
             if found.setdefault(going.place, flags) != flags or not self.serves(going, flags):
-                return
-        self.flags |= found
-        for going in group.goings:
-            if going.computed:
-                self.context.diagnostics.report(AS_TAUGHT, going.move.origin)
-            elif going.before is None:
-                told[id(going.move)] = going.move.origin
+                return {}
+        return found
 
     def needed(self, going: _Going) -> bool:
         """Would the target's controller choose otherwise, or may it?"""

@@ -14,6 +14,7 @@ from rpl.passes import rigid
 from rpl.passes.capabilities import TurnedWay
 from rpl.passes.fold import Unchanged, constant, lasting
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.paths.movebefore import MovesBefore
 from rpl.passes.legalise.paths.targets import Whole, here
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -34,11 +35,12 @@ _PLACES = 9
 def turned_ways(program: ir.Program, context: Context) -> ir.Program:
     """Only for targets without such relative moves."""
     scopes, unchanged, usual = ProgramScope(program), unchanged_in(program), usual_places(program)
+    before = MovesBefore(program, unchanged)
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            worker = _Turned(context, scopes.routine(module, routine), unchanged, usual)
+            worker = _Turned(context, scopes.routine(module, routine), unchanged, before, usual)
             done = edit_bodies(routine, worker.body)
             routines.append(replace(done, declarations=(*routine.declarations, *worker.declared)))
         modules.append(replace(module, routines=tuple(routines)))
@@ -48,8 +50,10 @@ def turned_ways(program: ir.Program, context: Context) -> ir.Program:
 class _Turned(Whole):
     """The moves of one routine. `usual`: the tool, the frame, that a move has which names none although others do."""
 
-    def __init__(self, context: Context, scope: Scope, unchanged: Unchanged, usual: frozenset[str]) -> None:
-        super().__init__(context, scope, unchanged)
+    def __init__(
+        self, context: Context, scope: Scope, unchanged: Unchanged, before: MovesBefore, usual: frozenset[str]
+    ) -> None:
+        super().__init__(context, scope, unchanged, before)
         self.usual = usual
 
     def needs_work(self, move: ir.Move) -> bool:

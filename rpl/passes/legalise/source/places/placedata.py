@@ -1,8 +1,8 @@
-"""Poses that moves go to as robtargets, from languages where a place and a frame are one type (URScript, V+).
+"""Poses that moves go to as places with a posture, from languages where a place and a frame are one type (URScript,
+V+), for targets whose places say one (a RAPID robtarget, a KRL E6POS, a TP position).
 
-In RAPID a `pose` is nothing that a move goes to: it would be computed into a robtarget in front of each move. What is a
-place in the source becomes a robtarget in all that hands it on (variables, parameters, functions), and the frame that a
-place is seen from is the work object of the move. Poses that are something else as well stay poses.
+What is a place in the source becomes one in all that hands it on (variables, parameters, functions), so that it can be
+taught; and the frame that it is seen from is the frame of the move. Poses that are something else as well stay poses.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from rpl import ir
+from rpl.passes.capabilities import Postures
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
@@ -27,7 +28,7 @@ _SHIFTS = ("offset", "tool_offset")
 _Key = int  # identity of a declaration, or of a function for what it returns
 
 
-@legalising(sees=("Move",))
+@legalising(unless=lambda context: context.capabilities.places.postures is not Postures.FLAGS, sees=("Move",))
 def places_as_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only where the program tells places and poses apart all through."""
     roles = _Roles(program)
@@ -224,8 +225,11 @@ class _Roles:
 
 @dataclass(slots=True)
 class _Rewriting:
+    """`frame`: that of the move before, as it stands in the text."""
+
     roles: _Roles
     target: ir.TargetType
+    frame: ir.Expression | None = None
 
     def program(self, program: ir.Program) -> ir.Program:
         modules = []
@@ -245,6 +249,7 @@ class _Rewriting:
     def routine(self, module: ir.Module, routine: ir.Routine) -> ir.Routine:
         scope = self.roles.scopes.routine(module, routine)
         places = self.roles.places
+        self.frame = None
         parameters = tuple(replace(one, type=self.target) if id(one) in places else one for one in routine.parameters)
 
         def expression(one: ir.Expression) -> ir.Expression:
@@ -269,7 +274,11 @@ class _Rewriting:
     def statement(self, old: ir.Statement, done: ir.Statement, routine: ir.Routine, scope: Scope) -> ir.Statement:
         match old, done:
             case ir.Move(relative=None), ir.Move():
-                return self.move(old, done, scope)
+                moved = self.move(old, done, scope)
+                self.frame = moved.frame
+                return moved
+            case ir.Move(relative="tool", frame=None), ir.Move() if self.roles.framed:
+                return replace(done, frame=self.frame)  # along the tool it is the same way in every frame
             case ir.Assign(target=target), ir.Assign() if self.roles.key(target, scope) in self.roles.places:
                 return replace(done, value=self.placed(done.value))
             case ir.Return(), ir.Return(value=value) if value is not None and id(routine) in self.roles.places:
