@@ -18,6 +18,7 @@ from rpl.emulator.model import RobotModel
 from rpl.ir.walk import walk
 from rpl.passes import rigid
 from rpl.passes.given import with_given
+from rpl.passes.legalise.source.places.pulses import pulses_as_joints
 from rpl.proof.difference import Difference
 from rpl.proof.reach import Reach
 from rpl.proof.record import Record, place_of
@@ -67,8 +68,8 @@ def retaught(base: ProofResult, runs: Runs, asked: Teaching) -> ProofResult:
     if base.verdict == DIFFERENT:
         note = "not looked at: the programs differ as they are"
         return replace(base, taught=Retaught((), asked.seed, asked.amount, note=note))
-    first, cell_a = _settled(runs.program_a, runs.cell_a)
-    second, cell_b = _settled(runs.program_b, runs.cell_b)
+    first, cell_a = _settled(pulses_as_joints(runs.program_a, runs.robot_a), runs.cell_a)
+    second, cell_b = _settled(pulses_as_joints(runs.program_b, runs.robot_b), runs.cell_b)
     runs = replace(runs, program_a=first, program_b=second, cell_a=cell_a, cell_b=cell_b)
     found = _Teacher(base, runs, asked).result()
     return replace(base, difference=found.difference, taught=found)

@@ -4,7 +4,7 @@ the posture in which it is.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -55,7 +55,9 @@ class Choices:
     @property
     def apart(self) -> bool:
         """Do the controllers often choose otherwise on this arm, with nothing said?"""
-        return _apart(self.arm, type(self.ours), type(self.theirs))
+        ours: Hashable = type(self.ours)
+        theirs: Hashable = type(self.theirs)
+        return _apart(self.arm, ours, theirs)
 
     def source(self, flange: Any, before: Any) -> Any:
         """The joints (n,) to which the source's controller goes for a flange pose (4, 4), from joints (n,); None where

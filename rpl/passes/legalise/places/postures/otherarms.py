@@ -16,7 +16,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant
 from rpl.passes.legalise.context import Arm, Context
 from rpl.passes.legalise.facts.motion.whereabouts import Whereabouts
-from rpl.passes.legalise.places.postures.freepostures import FREE
+from rpl.passes.legalise.places.postures.choices import FREE
 from rpl.passes.legalise.places.postures.rowpostures import flanges_in_rows, stretch_of_matrix
 from rpl.passes.legalise.places.postures.unreachable import reached
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors

@@ -23,11 +23,15 @@ _ACTS_ON = frozenset(f"function {one}" for one in _FUNCTIONS)
 @legalising(sees=_ACTS_ON)
 def fold_pulses(program: ir.Program, context: Context) -> ir.Program:
     """The program without pulses, as far as the arm is known."""
-    each = context.robot.pulse_scale if context.robot is not None else None
-    ratios = None if each is None else [float(number) for number in each]
     if context.robot is not None:
         report_assumed(program, context.robot, context.diagnostics)
-    arm = context.robot
+    return pulses_as_joints(program, context.robot)
+
+
+def pulses_as_joints(program: ir.Program, arm: Arm | None) -> ir.Program:
+    """The same, with nothing reported."""
+    each = arm.pulse_scale if arm is not None else None
+    ratios = None if each is None else [float(number) for number in each]
     return rewrite_for(_ACTS_ON, program, lambda node: _folded(node, ratios, arm))
 
 
