@@ -4,7 +4,7 @@ the posture in which it is.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from rpl import ir, registry
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
+from rpl.passes.values import real
 
 if TYPE_CHECKING:
     from rpl.passes.legalise.facts.motion.whereabouts import Whereabouts
@@ -55,8 +56,8 @@ class Choices:
     @property
     def apart(self) -> bool:
         """Do the controllers often choose otherwise on this arm, with nothing said?"""
-        ours: Hashable = type(self.ours)
-        theirs: Hashable = type(self.theirs)
+        ours: Any = type(self.ours)
+        theirs: Any = type(self.theirs)
         return _apart(self.arm, ours, theirs)
 
     def source(self, flange: Any, before: Any) -> Any:
@@ -107,4 +108,10 @@ def to_a_place(node: object) -> bool:
     return isinstance(node, ir.Move) and node.kind == "joint" and node.relative is None
 
 
-__all__ = ["ASSUMED", "FREE", "SAME_DEG", "Choices", "to_a_place"]
+def joint_target(joints: Any, digits: int = 9) -> ir.Aggregate:
+    """Joints (n,) as a target, written out."""
+    entries = tuple((name, real(round(float(one), digits))) for name, one in zip(ir.AXES, joints, strict=False))
+    return ir.Aggregate(entries, type_name="joints")
+
+
+__all__ = ["ASSUMED", "FREE", "SAME_DEG", "Choices", "joint_target", "to_a_place"]

@@ -20,10 +20,10 @@ from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.motion.whereabouts import Whereabouts
 from rpl.passes.legalise.facts.values.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.places.postures.choices import ASSUMED, FREE, Choices, to_a_place
+from rpl.passes.legalise.places.postures.choices import ASSUMED, FREE, Choices, joint_target, to_a_place
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
 from rpl.passes.legalise.stages import legalising
-from rpl.passes.values import Target, real
+from rpl.passes.values import Target
 
 
 @legalising()
@@ -91,14 +91,9 @@ class _Free(Rewriter):
     def to_joints(self, move: ir.Move, joints: Any) -> ir.Move:
         """To these joints; to the solution of the place next to them, where the target's moves can be told so."""
         if self.context.capabilities.places.postures is Postures.JOINTS:
-            return replace(move, target=ir.Builtin("target_to_joints_near", (move.target, _written(joints, 0))))
+            return replace(move, target=ir.Builtin("target_to_joints_near", (move.target, joint_target(joints, 0))))
         self.written.tell(move, self.scope, move.target)
-        return replace(move, target=_written(joints, 9))
-
-
-def _written(joints: Any, digits: int) -> ir.Expression:
-    entries = tuple((name, real(round(float(one), digits))) for name, one in zip(ir.AXES, joints, strict=False))
-    return ir.Aggregate(entries, type_name="joints")
+        return replace(move, target=joint_target(joints))
 
 
 __all__ = ["free_postures"]

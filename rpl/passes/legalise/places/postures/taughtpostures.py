@@ -3,14 +3,15 @@ posture in which the source's controller comes to it, as if it had been taught o
 
 A place and all that is worked out of it go to moves together, and one posture must serve them all. A move whose end the
 run decides counts as if it went to the taught place itself. Where the postures are not the same, or are known nowhere,
-the places stay as they are.
+the places stay as they are; where the target's places always say one, it is that of the first move, and a move that
+comes there otherwise goes to joints.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 from rpl import ir
@@ -22,8 +23,9 @@ from rpl.passes.legalise.context import Context, array
 from rpl.passes.legalise.facts.motion.whereabouts import NOWHERE_KNOWN, Whereabouts
 from rpl.passes.legalise.facts.targetuses import Uses
 from rpl.passes.legalise.facts.usage import each_statement
+from rpl.passes.legalise.facts.values.taughtvalues import JointsOfPlaces
 from rpl.passes.legalise.kinds import walk_for
-from rpl.passes.legalise.places.postures.choices import ASSUMED, SAME_DEG, Choices, to_a_place
+from rpl.passes.legalise.places.postures.choices import ASSUMED, FREE, SAME_DEG, Choices, joint_target, to_a_place
 from rpl.passes.legalise.places.postures.writtenplaces import inserted
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
@@ -72,11 +74,11 @@ class _Going:
 
 @dataclass(slots=True)
 class _Group:
-    """Places that the same moves go to, and these moves; `open`: one of them is known nowhere."""
+    """Places that the same moves go to, and these moves; `open`: those of which no posture is known."""
 
     places: set[int] = field(default_factory=set)
     goings: list[_Going] = field(default_factory=list)
-    open: bool = False
+    open: list[ir.Move] = field(default_factory=list)
 
 
 class _Taught(Rewriter):
@@ -93,8 +95,10 @@ class _Taught(Rewriter):
             for body in bodies(routine):
                 each_statement(body, partial(self.look, scope=scope))
         self.flags: dict[int, dict[str, int]] = {}
-        groups = list({id(one): one for one in self.groups.values() if one.goings and not one.open}.values())
-        if self.wanted(groups):
+        self.joints: dict[int, Any] = {}  # of moves that go to joints
+        self.said = PlaceRule.POSTURE_SAID in context.capabilities.places.rules
+        groups = list({id(one): one for one in self.groups.values() if one.goings or one.open}.values())
+        if self.wanted([one for one in groups if not one.open]):
             self.settle(groups)
 
     # ---- what goes where
@@ -109,7 +113,7 @@ class _Taught(Rewriter):
         for key in reached:
             going = self.going(statement, key, scope)
             if going is None:
-                group.open = True
+                group.open.append(statement)
             else:
                 group.goings.append(going)
 
@@ -139,7 +143,7 @@ class _Taught(Rewriter):
             if one is not first:
                 first.places |= one.places
                 first.goings += one.goings
-                first.open = first.open or one.open
+                first.open += one.open
                 self.groups.update((key, first) for key in one.places)
         return first
 
@@ -179,8 +183,7 @@ class _Taught(Rewriter):
         and where all of them are known: else it chooses as the source's does in the run."""
         goings = [one for group in groups for one in group.goings]
         known = all(one.before is not None and not one.computed for one in goings)
-        said = PlaceRule.POSTURE_SAID in self.context.capabilities.places.rules
-        return said or known or any(map(self.needed, goings))
+        return self.said or known or any(map(self.needed, goings))
 
     def settle(self, groups: list[_Group]) -> None:
         """Give the places of each group their postures, where one serves all of its moves."""
@@ -193,17 +196,23 @@ class _Taught(Rewriter):
                     self.context.diagnostics.report(AS_TAUGHT, going.move.origin)
                 elif going.before is None:
                     told[id(going.move)] = going.move.origin
+            for move in group.open if self.said else ():
+                self.context.diagnostics.report(FREE, move.origin)
         for origin in told.values():
             self.context.diagnostics.report(ASSUMED, origin)
 
     def postures(self, group: _Group) -> dict[int, dict[str, int]]:
         """The flags of each place; none where they do not serve a move."""
         found: dict[int, dict[str, int]] = {}
+        others = []
         for going in group.goings:
             flags = self.choices.theirs.encode(self.choices.arm, going.joints)
             if found.setdefault(going.place, flags) != flags or not self.serves(going, flags):
-                return {}
-        return found
+                others.append(going)
+        if self.said:
+            self.joints |= {id(one.move): one.joints for one in others if not one.computed}
+            return found
+        return {} if others or group.open else found
 
     def needed(self, going: _Going) -> bool:
         """Would the target's controller choose otherwise, or may it?"""
@@ -214,6 +223,17 @@ class _Taught(Rewriter):
         before = going.joints if going.before is None else going.before
         joints = self.choices.target(going.flange, before, flags)
         return joints is not None and bool(abs(joints - going.joints).max() <= SAME_DEG)
+
+    def statement(self, statement: ir.Statement) -> list[ir.Statement]:
+        joints = self.joints.get(id(statement))
+        if joints is None or not isinstance(statement, ir.Move):
+            return super().statement(statement)
+        self.written.tell(statement, self.scope, statement.target)
+        return [replace(statement, target=joint_target(joints))]
+
+    @cached_property
+    def written(self) -> JointsOfPlaces:
+        return JointsOfPlaces(self.source, self.context)
 
     def expression(self, expression: ir.Expression) -> ir.Expression:
         flags = self.flags.get(id(expression))
