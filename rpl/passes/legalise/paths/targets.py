@@ -93,7 +93,7 @@ class Whole:
     def needs_work(self, move: ir.Move) -> bool:
         can = self.context.capabilities
         if move.relative is not None:
-            along_tool = move.relative == "tool" and isinstance(move.target, ir.Aggregate)
+            along_tool = move.relative == "tool" and isinstance(move.target, ir.Aggregate) and not _turns(move.target)
             return not can.motion.relative or (along_tool and not can.motion.tool_ways)
         return PlaceRule.PARTIAL not in can.places.rules and self.missing(move.target)
 
@@ -226,7 +226,7 @@ class Whole:
 
     def offset(self, move: ir.Move, target: ir.Aggregate, done: list[ir.Statement]) -> list[ir.Statement]:
         values = {name: value for name, value in target.entries if name is not None}
-        if any(name in values and not _is_zero(values[name]) for name in ir.ANGLES):
+        if _turns(target):
             self.context.diagnostics.report(TURNED, move.origin)
             return [move]
         seen = self.seen_alike(done, move)
@@ -378,6 +378,10 @@ def here(move: ir.Move) -> ir.Expression:
     if move.tool is None and move.frame is None:
         return ir.System("actual_pose")
     return ir.Builtin("current_target", (move.tool or ir.System("tool"), move.frame or ir.System("base")))
+
+
+def _turns(way: ir.Aggregate) -> bool:
+    return any(name in ir.ANGLES and not _is_zero(value) for name, value in way.entries)
 
 
 def _is_zero(value: ir.Expression) -> bool:
