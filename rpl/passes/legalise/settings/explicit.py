@@ -14,22 +14,23 @@ from functools import cache
 from rpl import ir
 from rpl.diagnostics import Code, Severity, code
 from rpl.ir.walk import walk
-from rpl.passes.capabilities import MoveSetting, PathRule
+from rpl.passes.capabilities import MoveSetting, PathRule, PlaceRule
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.entries import moving_entries
 from rpl.passes.legalise.facts.forward import reactions
 from rpl.passes.legalise.facts.usage import assigned_below, assigned_in, base_name, doing, each_statement, usage_of
-from rpl.passes.legalise.kinds import rewrite_for, walk_for
+from rpl.passes.legalise.kinds import kinds_in, walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
-from rpl.passes.legalise.rewriting.library import common_library
 from rpl.passes.legalise.rewriting.settingwords import DROPPED, JOINT_BLEND
 from rpl.passes.legalise.settings import carriedframes
+from rpl.passes.legalise.settings.leastspeeds import with_least
 from rpl.passes.legalise.settings.strengths import is_usual_ramp
 from rpl.passes.legalise.settings.usualplaces import TURNING, turns_as_usual, usual_places, usual_turns
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.percents import MM_S_PER_PERCENT, ZONE_MM_PER_PERCENT
 from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import Scope
+from rpl.passes.signatures import PLACES
 from rpl.passes.typewords import component_names
 from rpl.passes.typing import type_of
 from rpl.source import NOWHERE, Origin
@@ -70,6 +71,7 @@ _CHECKS = frozenset(
 )
 
 
+_ASKING = frozenset(("system actual_pose", *(f"function {name}" for name in PLACES)))
 _BRAKES = frozenset(("deceleration_percent",))  # beside acceleration_percent, where a target has both
 
 
@@ -84,6 +86,8 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
     looks_ahead = "advance" in context.capabilities.system_variables
     on_paths = any(isinstance(node, ir.Move) and node.kind != "joint" for node in walk_for({"Move"}, *program.modules))
     quiet, below, turns = _quiet(program), assigned_below(program), not turns_as_usual(program)
+    # Where joints are points too they have a frame as places have.
+    asks = PlaceRule.UNTYPED in context.capabilities.places.rules or not _ASKING.isdisjoint(kinds_in(program))
     restless = not quiet.issuperset(name.lower() for name in reactions(program))
     modules = []
     for module in program.modules:
@@ -93,23 +97,10 @@ def explicit_to_modal(program: ir.Program, context: Context) -> ir.Program:
                 routine = _looking_ahead(routine, rules_of(context.target).advance.moves)
                 routine = _slowing(routine, context) if on_paths else routine
             scope = scopes.routine(module, routine)
-            worker = Modal(context, scope, assigned, reported, usual, quiet, below, restless, turns)
+            worker = Modal(context, scope, assigned, reported, usual, quiet, below, restless, turns, asks)
             routines.append(edit_bodies(routine, worker.whole))
         modules.append(replace(module, routines=tuple(routines)))
-    return _with_least(replace(program, modules=tuple(modules)), context)
-
-
-def _with_least(program: ir.Program, context: Context) -> ir.Program:
-    """The limits of speeds asked for here, where the target has no function for the smaller of two numbers."""
-    if "min" in context.capabilities.functions:
-        return program
-    helpers = common_library(context)
-
-    def change(node: object) -> object:
-        least = isinstance(node, ir.Builtin) and node.function == "min"
-        return helpers.call("rpl_min", *node.arguments) if least and isinstance(node, ir.Builtin) else node
-
-    return helpers.added_to(rewrite_for({"function min"}, program, change))
+    return with_least(replace(program, modules=tuple(modules)), context)
 
 
 def _looking_ahead(routine: ir.Routine, moves: int) -> ir.Routine:
@@ -144,6 +135,7 @@ class Modal:
         below: Mapping[str, set[str]] | None = None,
         restless: bool = False,
         turns: bool = True,
+        asks: bool = True,
     ) -> None:
         self.context, self.can, self.scope = context, context.capabilities, scope
         self.assigned, self.reported = assigned, reported
@@ -151,7 +143,10 @@ class Modal:
         self.type_of_name = cache(lambda name: type_of(name, scope))
         self.data_of_name = cache(self.constant_data)
         self.usual, self.quiet, self.below = usual, quiet, below or {}
-        self.turns = turns  # does any move say how fast the tool turns?
+        self.turns, self.asks = (
+            turns,
+            asks,
+        )  # does any move say how fast the tool turns, is the robot's place asked for?
         self.restless = restless  # an interrupt may set what is modal between any two statements
         self.brakes = _BRAKES & self.can.system_variables
         ours = rules_of(context.source).advance
@@ -285,7 +280,7 @@ class Modal:
             wanted["tool"] = self.frame_of_tool(move.tool, move)
         if move.frame is not None:
             wanted["base"] = self.frame_of_work_object(move.frame)
-        for name in sorted(self.usual - wanted.keys() - TURNING):  # another move may have set it
+        for name in sorted(self.usual - wanted.keys() - TURNING - self.idle(move)):  # another move may have set it
             wanted[name] = ir.System("null_frame")
         own = self.own_speed(move)
         if move.speed is not None and own is None:
@@ -306,6 +301,11 @@ class Modal:
             before[0] = replace(before[0], origin=origin)
             done = replace(done, origin=replace(origin, comments=()))
         return [*before, done]
+
+    def idle(self, move: ir.Move) -> frozenset[str]:
+        """What is modal and does not matter to a move to joints: its frame, where nothing asks for places."""
+        to_joints = move.relative is None and isinstance(self.type(move.target), ir.JointsType)
+        return frozenset(("base",)) if to_joints and not self.asks else frozenset()
 
     def spline(self, spline: ir.Spline, known: Environment) -> list[ir.Statement]:
         """A block: what its first point needs, and its corner, is set in front of it."""
