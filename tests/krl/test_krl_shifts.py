@@ -142,7 +142,7 @@ table 30 -100 20 0 0 0
 .END
 """
     journey = there_and_back({"main.v2": text}, "vplus", "krl", "adept_viper_s650")
-    for move in ("LIN shift_z50:place", "LIN place:shift_zm30", "LIN table:place:shift_zm30"):
+    for move in ("LIN shift_z50:place", "LIN place:shift_zm30", "$BASE=BASE_DATA[1]\r\nLIN place:shift_zm30"):
         assert f"{move} C_VEL" in journey.text, journey.text
     assert "rpl_" not in journey.text
     proved(journey)

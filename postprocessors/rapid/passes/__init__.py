@@ -17,8 +17,8 @@ from .tooldata import tool_data
 from .traps import priorities_to_traps
 
 PASSES: tuple[Placed, ...] = (
-    Placed(points_offset, "source", behind="rotation_vectors"),
-    Placed(constant_data, "source", behind="rotation_vectors"),
+    Placed(points_offset, "source", behind="places_as_targets"),
+    Placed(constant_data, "source", behind="places_as_targets"),
     Placed(error_numbers, "errors", behind="interrupt_places"),
     Placed(priorities_to_traps, "interrupts", behind="interrupts"),
     Placed(modal_to_explicit, "settings", behind="corner_leads"),
