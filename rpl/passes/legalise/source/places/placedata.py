@@ -13,17 +13,19 @@ from functools import partial
 from rpl import ir
 from rpl.passes.capabilities import Postures
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.kinds import kinds_in, walk_for
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.signatures import PLACES
 from rpl.passes.typewords import type_word
 from rpl.passes.typing import type_of
 
 __all__ = ["places_as_targets"]
 
+_ASKING = frozenset(("system actual_pose", *(f"function {name}" for name in PLACES)))
 _SHIFTS = ("offset", "tool_offset")
 _Key = int  # identity of a declaration, or of a function for what it returns
 
@@ -31,7 +33,8 @@ _Key = int  # identity of a declaration, or of a function for what it returns
 @legalising(unless=lambda context: context.capabilities.places.postures is not Postures.FLAGS, sees=("Move",))
 def places_as_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only where the program tells places and poses apart all through."""
-    roles = _Roles(program)
+    modal = context.capabilities.settings.modal
+    roles = _Roles(program, framed=_keeps_world(program) and not (modal and _asks(program)))
     roles.look()
     return _Rewriting(roles, ir.TargetType(context.capabilities.places.notation)).program(program)
 
@@ -49,22 +52,26 @@ def _keeps_world(program: ir.Program) -> bool:
     return True
 
 
+def _asks(program: ir.Program) -> bool:
+    """Does it ask for a place in the frame that is set? A frame that stays set behind a move would be another one."""
+    return not _ASKING.isdisjoint(kinds_in(program))
+
+
 @dataclass(slots=True)
 class _Roles:
     """What the poses of a program are: places are what moves go to, all that hands them on and all they are set to."""
 
     source: ir.Program
+    framed: bool  # may moves have frames of their own?
     places: set[_Key] = field(default_factory=set)
     otherwise: set[_Key] = field(default_factory=set)  # used as something that a target is not
     links: list[tuple[_Key, _Key]] = field(default_factory=list)
     scopes: ProgramScope = field(init=False)
     assigned: set[str] = field(init=False)
-    framed: bool = field(init=False)
 
     def __post_init__(self) -> None:
         self.scopes = ProgramScope(self.source)
         self.assigned = unchanged_in(self.source).assigned
-        self.framed = _keeps_world(self.source)
 
     def look(self) -> None:
         """Find the places: what is linked to one and to nothing else."""
