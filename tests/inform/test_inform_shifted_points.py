@@ -61,11 +61,11 @@ def test_constant_tools_and_frames_stand_beside_the_jobs() -> None:
     assert instructions(files["PUT.JBI"]) == ["MOVJ C00000 VJ=75.00 PL=0"]
 
 
-def test_a_constant_way_from_a_point_is_a_point_of_its_own() -> None:
+def test_a_constant_way_from_a_point_is_a_shift() -> None:
     files, diagnostics = written("MoveJ Offs(pCorner,0,0,90),v1000,fine,tGrip\\WObj:=wTable;")
-    assert "C00000=70.000,60.000,160.000,180.0000,0.0000,90.0000" in files["PUT.JBI"]
-    assert not any(line.startswith("SFTON") for line in files["PUT.JBI"])
-    assert "taught-value-written" in {item.code.name for item in diagnostics}
+    assert "C00000=70.000,60.000,70.000,180.0000,0.0000,90.0000" in files["PUT.JBI"]
+    assert any(line.startswith("SFTON P") for line in files["PUT.JBI"])
+    assert "taught-value-written" not in {item.code.name for item in diagnostics}
 
 
 def test_a_counted_place_is_a_point_with_a_shift() -> None:

@@ -1,8 +1,8 @@
 """Places that are counted from a taught point, as a point and a shift: what programmers write as SFTON .. SFTOF.
 
 A variable that always holds a taught point moved along the axes of its frame becomes the way that it is moved by; the
-moves then go to the point, shifted. A place that is a constant way from a point is a point of its own, and that is
-told: each step of a job has its own point anyway, and nobody writes SFTON round a single move.
+moves then go to the point, shifted; so do moves to a constant way from a point. What is shifted by both is a point of
+its own, a constant way from the taught one, that is told.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.usage import usage_of
 from rpl.passes.legalise.facts.values.taughtvalues import tell_written
 from rpl.passes.legalise.rewriting.editing import edit_bodies, map_body
+from rpl.passes.legalise.rewriting.headdata import ShiftFrames
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -38,14 +39,17 @@ def shifted_points(program: ir.Program, context: Context) -> ir.Program:
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
     straight = _turn_nothing(program, scopes, unchanged)
     mentions = _mentions(program)
+    ways = ShiftFrames(context)
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
             about = _About(scopes.routine(module, routine), unchanged, straight, context)
             own = {name for name, homes in mentions.items() if homes == {(module.name, routine.name)}}
-            routines.append(_shifted(routine, about, own))
+            routines.append(_shifted(routine, about, ways, own))
         modules.append(replace(module, routines=tuple(routines)))
+    if ways.names:
+        modules[0] = replace(modules[0], declarations=(*modules[0].declarations, *ways.declared()))
     return replace(program, modules=tuple(modules))
 
 
@@ -121,7 +125,7 @@ def moved(point: ir.Expression, way: Iterable[float]) -> ir.Expression:
 # ---- one routine
 
 
-def _shifted(routine: ir.Routine, about: _About, own: set[str]) -> ir.Routine:
+def _shifted(routine: ir.Routine, about: _About, ways: ShiftFrames, own: set[str]) -> ir.Routine:
     found = {
         about.scope.fold(name)
         for statement in routine.body
@@ -130,7 +134,7 @@ def _shifted(routine: ir.Routine, about: _About, own: set[str]) -> ir.Routine:
         and isinstance(about.type(ir.Name(name)), ir.PoseType | ir.TargetType)
     }
     while True:
-        worker = _Routine(about, found)
+        worker = _Routine(about, ways, found)
         try:
             return worker.routine(routine)
         except _NoShiftError as error:
@@ -142,6 +146,7 @@ class _Routine:
     """The routine with its variables `followed`. Raises _NoShiftError with the name of one that has another use."""
 
     about: _About
+    ways: ShiftFrames
     followed: set[str]
     held: dict[str, _Place] = field(default_factory=dict)
     shifts: dict[str, ir.Name] = field(default_factory=dict)
@@ -333,6 +338,9 @@ class _Routine:
         if place is None:
             return self.unfollowed(expression)
         point = place.point
+        if place.shift is None and not self.about.is_place(point):
+            said = self.displaced(point)
+            return self.unfollowed(expression) if said is None else replace(said, origin=expression.origin)
         if not self.about.is_place(point):
             value = self.about.value(point)
             made = None if value is None else _written(value)
@@ -343,6 +351,20 @@ class _Routine:
         if place.shift is None:
             return point
         return ir.Builtin("displaced", (point, place.shift), origin=expression.origin)
+
+    def displaced(self, point: ir.Expression) -> ir.Builtin | None:
+        """A taught point moved by a constant way, along the axes of its frame or of the tool; None: moved by more."""
+        match point:
+            case ir.Builtin(function="offset", arguments=(root, *way)) if self.about.is_place(root):
+                said = "displaced"
+            case ir.Builtin(function="tool_offset", arguments=(root, *way)) if self.about.is_place(root):
+                said = "displaced_in_tool"
+            case _:
+                return None
+        numbers = [self.about.number(one) for one in way]
+        if (len(numbers) > 3 and any(numbers[3:])) or None in numbers:
+            return None
+        return ir.Builtin(said, (root, self.ways.frame([one or 0.0 for one in numbers[:3]])))
 
     def unfollowed(self, expression: ir.Expression) -> ir.Expression:
         for name in self.about.names(expression) & self.followed:
