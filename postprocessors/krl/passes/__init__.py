@@ -12,6 +12,7 @@ from .groups import name_groups
 from .heldmotion import held_motion
 from .inlineforms import inline_forms
 from .onemove import settings_of_one_move
+from .plainstops import plain_stops
 from .roomytexts import roomy_texts
 from .searches import searches
 from .shifts import said_shifts
@@ -23,6 +24,7 @@ from .writestates import states_of_writes
 PASSES: tuple[Placed, ...] = (
     Placed(changed_places, "source", behind="whole_settings"),
     Placed(ways_as_frames, "source", before="elementwise"),
+    Placed(plain_stops, "paths", behind="whole_targets"),
     Placed(searches, "searches", before="search_parts"),
     Placed(held_motion, "interrupts", behind="stored_paths"),
     Placed(name_groups, "io", behind="number_signals"),

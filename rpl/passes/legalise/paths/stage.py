@@ -9,6 +9,7 @@ from rpl.passes.legalise.paths.actionarguments import action_arguments
 from rpl.passes.legalise.paths.atrest import at_rest
 from rpl.passes.legalise.paths.begunmoves import begun_moves
 from rpl.passes.legalise.paths.begunoutputs import begun_outputs
+from rpl.passes.legalise.paths.idlewaits import idle_waits
 from rpl.passes.legalise.paths.latedelays import without_late_delays
 from rpl.passes.legalise.paths.lookahead import stop_blends
 from rpl.passes.legalise.paths.targets import whole_targets
@@ -21,6 +22,7 @@ STAGE = Stage(
     "paths",
     (
         at_rest,
+        idle_waits,
         without_late_delays,
         wrist_paths,
         without_shared_references,
