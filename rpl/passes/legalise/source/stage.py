@@ -31,6 +31,7 @@ from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
 from rpl.passes.legalise.source.places.shiftedplaces import shifted_places
 from rpl.passes.legalise.source.places.unknownpulses import unknown_pulses
+from rpl.passes.legalise.source.places.waynumbers import ways_as_numbers
 from rpl.passes.legalise.source.precisions import precisions
 from rpl.passes.legalise.source.rates import rates
 from rpl.passes.legalise.source.sameunits import same_units
@@ -103,6 +104,7 @@ STAGE = Stage(
         places_as_targets,
         levels_to_distances,
         displacements,
+        ways_as_numbers,
         whole_settings,
         whole_texts,
         text_bytes,
