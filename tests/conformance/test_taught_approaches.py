@@ -171,7 +171,7 @@ CASES = {
     "posture from everywhere": (
         "rpl",
         "FOR n = 1 TO 2\n MOVE TO tool_offset(conveyor, 0, 0, -50)\n MOVE LINEAR TO conveyor SPEED 250 mm/s\nEND FOR",
-        ALL - {"urscript"},
+        set(),
     ),
 }
 # The same numbers as they are written with and without decimals.
