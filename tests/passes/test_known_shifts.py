@@ -48,7 +48,7 @@ UNSURE = {
 @pytest.mark.parametrize(
     ("target", "written"),
     [
-        ("rapid", ["MoveL Offs(C00000,P010.trans.x,P010.trans.y,P010.trans.z),v200,fine,TL0\\WObj:=UF2;"]),
+        ("rapid", ["MoveL Offs(C00000,0,0,40),v200,fine,TL0\\WObj:=UF2;"]),
         ("tp", ["L P[1:C00000] 200mm/sec FINE Offset,PR[1:P010]", "L P[2:C00001] 200mm/sec FINE Offset,PR[1:P010]"]),
         ("krl", ["$BASE=BASE_DATA[2]:P010", "FRAME P010="]),
         ("vplus", [":p010"]),
