@@ -4,6 +4,7 @@ declaration of that name says, is RO[2] here, and no DO."""
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
 from rpl import ir
 from rpl.passes.legalise.context import Context
@@ -32,8 +33,8 @@ def own_words(program: ir.Program, context: Context) -> ir.Program:
     for module in program.modules:
         routines = []
         for routine in module.routines:
-            scope = scopes.routine(module, routine)
-            routines.append(edit_bodies(routine, lambda body, scope=scope: _with_words(body, words, scope)))  # type: ignore[misc]
+            work = partial(_with_words, words=words, scope=scopes.routine(module, routine))
+            routines.append(edit_bodies(routine, work))
         modules.append(changed(module, routines=tuple(routines)))
     return changed(program, modules=tuple(modules))
 
