@@ -45,6 +45,8 @@ def targets(text: str) -> list[str]:
         (" MOVES place\n MOVES table:place", [PLACE, TABLE], ["place", r"place\WObj:=table"]),
         (" MOVES SHIFT(place BY 0,0,50)", [PLACE], ["Offs(place,0,0,50)"]),
         (" APPROS place, 30", [PLACE], ["RelTool(place,0,0,-30)"]),
+        (" MOVES place:TRANS(0,0,-30)", [PLACE], ["RelTool(place,0,0,-30)"]),
+        (" h = 30\n MOVES table:place:TRANS(0,5,-h)", [PLACE, TABLE], [r"RelTool(place,0,5,-h)\WObj:=table"]),
         (" APPROS table:place, 30", [PLACE, TABLE], [r"RelTool(place,0,0,-30)\WObj:=table"]),
         (
             " MOVES place\n SET place = SHIFT(place BY 0,0,20)\n MOVES table:place",
@@ -66,6 +68,7 @@ def test_places_are_targets(steps: str, head: list[str], goals: list[str]) -> No
         (" MOVES table:place\n SET table = SHIFT(table BY 0,0,20)\n MOVES table:place", ""),  # the frame is assigned
         (" MOVES table:place\n IF DISTANCE(place,table) > 10 THEN\n SIGNAL 5\n END", ""),  # poses of a function
         (" MOVES table:place\n SET other = INVERSE(place)\n MOVES table:place", ""),
+        (" MOVES table:place\n MOVES table:place:TRANS(0,0,-30,0,0,90)", ""),  # it turns the tool
         (
             " CALL go(place, 20)\n CALL go(table:place, 30)",  # the parameter is a product once
             ".PROGRAM go(p, h)\n APPROS p, h\n MOVES p\n BREAK\n DEPARTS h\n.END\n",
@@ -75,6 +78,38 @@ def test_places_are_targets(steps: str, head: list[str], goals: list[str]) -> No
 def test_poses_that_are_something_else_stay_poses(steps: str, more: str) -> None:
     journey = vplus(steps, more)
     assert all(line in journey.text for line in POSES) and "wobjdata" not in journey.text, journey.text
+    proved(journey)
+
+
+PALLET = """DEF main()
+DECL INT Row
+DECL FRAME Spot
+$TOOL=Gripper
+$BASE=Pallet
+$VEL.CP=0.25
+PTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}
+FOR Row=1 TO 3
+Spot=Down
+Spot.Y=Row*60
+LIN Spot:{X 0,Y 0,Z -50,A 0,B 0,C 0}
+LIN Spot
+ENDFOR
+END
+"""
+PALLET_DATA = """DEFDAT main
+DECL FRAME Gripper={X 0,Y 0,Z 120,A 0,B 0,C 0}
+DECL FRAME Pallet={X 400,Y -240,Z 40,A 0,B 0,C 0}
+DECL FRAME Down={X 0,Y 0,Z 60,A 180,B 0,C 180}
+ENDDAT
+"""
+
+
+def test_a_frame_whose_components_are_computed_is_a_place() -> None:
+    files = {"main.src": PALLET, "main.dat": PALLET_DATA}
+    journey = there_and_back(files, "krl", "rapid", "kuka_kr6r900sixx")
+    assert "CONST robtarget Down:=[[0,0,60]," in journey.text and "VAR robtarget Spot;" in journey.text
+    assert "Spot.trans.y:=Row*60;" in journey.text and "PoseMult" not in journey.text
+    assert targets(journey.text) == [r"RelTool(Spot,0,0,-50)\WObj:=Pallet", r"Spot\WObj:=Pallet"]
     proved(journey)
 
 

@@ -30,6 +30,7 @@ from rpl.passes.legalise.source.places.pulses import fold_pulses
 from rpl.passes.legalise.source.places.rotationvectors import rotation_vectors
 from rpl.passes.legalise.source.places.seenhalf import seen_half
 from rpl.passes.legalise.source.places.shiftedplaces import shifted_places
+from rpl.passes.legalise.source.places.toolways import ways_along_tool
 from rpl.passes.legalise.source.places.unknownpulses import unknown_pulses
 from rpl.passes.legalise.source.places.waynumbers import ways_as_numbers
 from rpl.passes.legalise.source.precisions import precisions
@@ -101,6 +102,7 @@ STAGE = Stage(
         neutral_functions,
         named_angles,
         rotation_vectors,
+        ways_along_tool,
         places_as_targets,
         levels_to_distances,
         displacements,
