@@ -173,7 +173,7 @@ class Statements:
         start, stop = self.text(loop.start), self.text(loop.stop)
         step = "" if loop.step is None else self.text(loop.step)
         scope = self.expressions.scope.with_value(ir.Variable(loop.counter, ir.RealType()))
-        inner = Expressions(scope, self.expressions.long_texts, self.expressions.beside)
+        inner = Expressions(scope, self.expressions.long_texts, self.expressions.beside, self.expressions.foreign)
         inside = Statements(inner, self.diagnostics, self.ledger, self.layout)
         body = inside.inner(loop.body)
         return self.say("for_block", counter=loop.counter, start=start, stop=stop, step=step, body=body)

@@ -30,7 +30,7 @@ def write(program: ir.Program, context: WriteContext) -> list[OutputFile]:
     background = {task.name for task in program.tasks if task.kind == "background"}
     for module in program.modules:
         beside = module.task != "" and module.task in background
-        writer = _ModuleWriter(module, scopes, context.diagnostics, ledger, layout, beside)
+        writer = _ModuleWriter(module, scopes, context.diagnostics, ledger, layout, beside, context.foreign)
         text = writer.text(header)
         suffix = ".sys" if any(name == "SYSMODULE" for name, _ in module.attributes) else ".mod"
         folder = f"{module.task}/" if module.task else ""
@@ -56,15 +56,16 @@ class _ModuleWriter:
         ledger: EmissionLedger,
         layout: Layout,
         beside: bool,
+        foreign: bool,
     ) -> None:
         self.layout, self.say = layout, layout.macros
-        self.module, self.scopes, self.beside = module, scopes, beside
+        self.module, self.scopes, self.beside, self.foreign = module, scopes, beside, foreign
         self.diagnostics, self.ledger = diagnostics, ledger
 
     def text(self, header: bool) -> str:
         module = self.module
         self.ledger.written(module)
-        expressions = Expressions(self.scopes.module(module), beside=self.beside)
+        expressions = Expressions(self.scopes.module(module), beside=self.beside, foreign=self.foreign)
         declarations: list[str] = []
         for declaration in _ordered(module.declarations):
             declarations.extend(self.declaration(declaration, expressions))
@@ -122,7 +123,7 @@ class _ModuleWriter:
         raise CannotSayError(f"there is no {declaration.__class__.__name__}")
 
     def routine(self, routine: ir.Routine) -> list[str]:
-        expressions = Expressions(self.scopes.routine(self.module, routine), beside=self.beside)
+        expressions = Expressions(self.scopes.routine(self.module, routine), beside=self.beside, foreign=self.foreign)
         layout, origin = self.layout, routine.origin
         statements = Statements(expressions, self.diagnostics, self.ledger, layout)
         try:

@@ -57,7 +57,7 @@ def written(program: ir.Program) -> tuple[str, Diagnostics]:
 def read_back(program: ir.Program) -> ir.Program:
     """Written as RAPID, read again, in normal form."""
     diagnostics = Diagnostics()
-    files = registry.target("rapid").write(program, WriteContext(diagnostics))
+    files = registry.target("rapid").write(program, WriteContext(diagnostics, foreign=False))
     sources = [source_from_bytes(file.path, file.data) for file in files]
     again = registry.dialect("rapid").read(sources, diagnostics)
     assert not diagnostics.has_errors, [item.as_text() for item in diagnostics]

@@ -12,6 +12,7 @@ from rpl.project import ReadProgram, read_sources
 from rpl.simulation import run_program
 from rpl.source import source_from_text
 from rpl.translation import translate_program
+from tests.there_and_back import there_and_back
 
 TARGET = ir.TargetType("tp")
 SENSOR = ir.Signal("digital_in", ir.IntLiteral(5))
@@ -104,3 +105,14 @@ def test_a_corner_that_every_way_sets_the_same_is_a_number_and_no_data(size: str
     done = translate_program(read, "rapid", "kuka_kr6r900sixx", None, Diagnostics())
     text = "".join(one.data.decode() for one in done.files)
     assert ("z40" in text, "zPath" in text) == (named, not named), text
+
+
+def test_a_counter_needs_no_declaration_and_its_remark_stays() -> None:
+    begun = "IF $IN[1] THEN\nfar=10.50\nENDIF\nIF $IN[2] THEN\nfar=50.0\nENDIF"
+    lines = f"DECL INT n ; how often\nDECL REAL far\n{begun}\nFOR n=1 TO 5\n$OUT[n]=far>n\nENDFOR"
+    journey = there_and_back({"main.src": f"DEF main()\n; the whole of it\n{lines}\nEND\n"}, "krl", "rapid")
+    assert "VAR num n;" not in journey.text
+    head = [line.strip() for line in journey.text.splitlines()]
+    at = head.index("PROC main()")
+    assert head[at + 1 : at + 4] == ["! the whole of it", "! how often", "VAR num far;"]
+    assert "far:=50;" in head and "far:=10.50;" in head  # no `.0`, other numbers as they are spelled

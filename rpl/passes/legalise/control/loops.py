@@ -34,6 +34,7 @@ from rpl.passes.legalise.rewriting.jumps import entered
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_bodies, rewrite_parts
 from rpl.passes.scope import Scope
+from rpl.source import Comment
 
 
 @legalising(sees=("For", "While", "Repeat", "Loop"))
@@ -455,20 +456,29 @@ class _Loops:
         return _renamed(loop.body, loop.counter.lower(), name.id)
 
     def without_counters(self, routine: ir.Routine) -> ir.Routine:
-        """Declarations of counters that are the loops' own now are dropped."""
+        """Declarations of counters that are the loops' own now are dropped; remarks on them stay in their place."""
         if not self.implicit:
             return routine
-        kept = tuple(
-            declaration
-            for declaration in routine.declarations
-            if not (
-                isinstance(declaration, ir.Variable)
-                and declaration.name.lower() in self.implicit - self.outside
-                and not declaration.origin.comments
-                and not declared_loops(routine, declaration.name.lower())
-            )
-        )
-        return replace(routine, declarations=kept)
+        kept: list[ir.Declaration] = []
+        remarks: tuple[Comment, ...] = ()
+        for declaration in routine.declarations:
+            origin = declaration.origin
+            if self.is_only_counter(declaration, routine):
+                remarks = (*remarks, *(replace(one, behind=False) for one in origin.comments))
+            elif remarks:
+                kept.append(replace(declaration, origin=replace(origin, comments=(*remarks, *origin.comments))))
+                remarks = ()
+            else:
+                kept.append(declaration)
+        note: ir.Body = (ir.Nothing(origin=replace(routine.origin, comments=remarks)),) if remarks else ()
+        return replace(routine, declarations=tuple(kept), body=(*note, *routine.body))
+
+    def is_only_counter(self, one: ir.Declaration, routine: ir.Routine) -> bool:
+        """Does nothing but loops that have a counter of their own use this variable?"""
+        if not isinstance(one, ir.Variable):
+            return False
+        key = one.name.lower()
+        return key in self.implicit - self.outside and not declared_loops(routine, key)
 
 
 def redirected(body: ir.Body, kind: type, jump: ir.Body) -> ir.Body:
