@@ -68,3 +68,12 @@ def test_translations_are_no_worse_than_recorded_beside_the_versions_by_hand(tas
         if target != source:
             found[target] = worse(known[f"{source} -> {target}"], figures(task, source, target))
     assert not any(found.values()), found
+
+
+@each_task
+def test_translations_are_as_long_as_the_versions_by_hand(task: str) -> None:
+    """Give or take 30 %, in lines of text or in lines as the pendant shows them: where one version has inline forms and
+    the other expert lines, only one of both is a fair measure."""
+    lengths = {pair: (found["length"], found["shown"]) for pair, found in recorded()[task].items()}
+    assert len(lengths) == len(LANGUAGES) * (len(LANGUAGES) - 1)
+    assert {pair: both for pair, both in lengths.items() if not any(0.7 <= one <= 1.3 for one in both)} == {}
