@@ -61,9 +61,9 @@ def test_what_is_missing_is_said(tmp_path: Path) -> None:
 
 def test_results_are_short(demo: Path) -> None:
     program = rpl.read(SAMPLE)
-    assert repr(program) == "<ReadProgram: krl, 2 files, 87 statements>"
+    assert repr(program) == "<ReadProgram: krl, 2 files, 90 statements>"
     written = rpl.translate(program, "rapid")
-    assert repr(written) == "<Translation: 1 file (PALLETISER.mod), 0 losses>"
+    assert repr(written) == "<Translation: 1 file (Palletiser.mod), 0 losses>"
     result = rpl.run(program, ROBOT)
     assert repr(result).startswith("<RunResult: finished after ") and "84 moves, 21 outputs" in repr(result)
     demo.write_text("DEF demo()\nINT i\ni=1/0\nEND\n")
@@ -80,7 +80,7 @@ def test_events_and_reports_show_their_place_and_not_the_whole_file(demo: Path) 
 def test_notebooks_get_a_table_and_nothing_of_a_program_is_markup(demo: Path) -> None:
     program = rpl.read(SAMPLE)
     assert program._repr_html_().count("<tr>") == 3
-    assert "<pre>MODULE PALLETISER" in rpl.translate(program, "rapid")._repr_html_()
+    assert "<pre>MODULE Palletiser" in rpl.translate(program, "rapid")._repr_html_()
     assert "<td>$OUT[1]</td><td>True</td>" in rpl.run(demo)._repr_html_()
     demo.write_text('DEF demo()\n; <script>alert(1)</script>\nMsgNotify("<b>&")\nEND\n')
     read = rpl.read(demo)

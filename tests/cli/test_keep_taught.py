@@ -10,13 +10,13 @@ import pytest
 from rpl.cli.main import run
 
 SAMPLE = Path(__file__).parents[2] / "samples" / "krl" / "palletiser"
-# The file of a target that holds the taught place XPICK, and how 430 mm stands in it there; how 440 of XABOVEPICK does.
+# The file of a target that holds the taught place XPick, and how 430 mm stands in it there; how 440 of XAbovePick does.
 PLACES = {
-    "rapid": ("PALLETISER.mod", "[[430.0,220.0,180.0]", "[[431.5,220.0,180.0]", "[[440.0,220.0,330.0]"),
-    "krl": ("PALLETISER.dat", PICK := "XPICK={X 430.0,Y 220.0,Z 180.0", PICK.replace("430.0", "431.5"),
-            "XABOVEPICK={X 440.0,Y 220.0,Z 330.0"),
+    "rapid": ("Palletiser.mod", "[[430,220,180]", "[[431.5,220,180]", "[[440,220,330]"),
+    "krl": ("Palletiser.dat", PICK := "XPick={X 430.0,Y 220.0,Z 180.0", PICK.replace("430.0", "431.5"),
+            "XAbovePick={X 440.0,Y 220.0,Z 330.0"),
     "vplus": ("palletiser.v2", "xpick 430 220 180", "xpick 431.5 220 180", "xabovepick 440 220 330"),
-    "urscript": ("palletiser.script", WAY := "xpick = p[0.43, 0.22, 0.18", WAY.replace("0.43", "0.4315"),
+    "urscript": ("Palletiser.script", WAY := "XPick = p[0.43, 0.22, 0.18", WAY.replace("0.43", "0.4315"),
                  "p[0.44, 0.22, 0.33"),
     "tp": ("PICK.LS", P := "X =   430.000  mm,\tY =   220.000  mm,\tZ =   180.000", P.replace("430.0", "431.5"),
            "X =   440.000  mm,\tY =   220.000  mm,\tZ =   330.000"),
@@ -48,7 +48,7 @@ def test_a_point_of_the_floor_stays_and_one_of_the_source_comes(
     assert translate(source, target, out) == 0
     original = (out / name).read_bytes()
     edited(out / name, before, touched)
-    edited(source / "palletiser.dat", "XABOVEPICK={X 430.0", "XABOVEPICK={X 440.0")
+    edited(source / "palletiser.dat", "XAbovePick={X 430.0", "XAbovePick={X 440.0")
     for _ in range(2):  # what was kept once is kept again
         capsys.readouterr()
         assert translate(source, target, out) == 0
@@ -69,7 +69,7 @@ def test_a_value_that_both_have_changed_is_a_warning_and_the_floors_stays(
     out = tmp_path / "out"
     translate(source, "rapid", out)
     edited(out / name, before, touched)
-    edited(source / "palletiser.dat", "XPICK={X 430.0,Y 220.0,Z 180.0", "XPICK={X 430.0,Y 225.0,Z 180.0")
+    edited(source / "palletiser.dat", "XPick={X 430.0,Y 220.0,Z 180.0", "XPick={X 430.0,Y 225.0,Z 180.0")
     translate(source, "rapid", out)
     assert "taught-twice" in capsys.readouterr().err
     assert touched in (out / name).read_text("latin-1")

@@ -208,7 +208,7 @@ def test_one_program_is_printed_and_what_belongs_to_it_named(capsys: pytest.Capt
     assert run(["translate", sample, "--to", "krl"]) == 0
     out, err = capsys.readouterr()
     assert out.startswith("&ACCESS") and "DEFDAT" not in out
-    assert "to what is printed belong PALLETISER.dat: -o DIR" in err
+    assert "to what is printed belong Palletiser.dat: -o DIR" in err
 
 
 def test_several_programs_need_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
