@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from rpl import ir
 from rpl.passes.legalise.context import Context, ProgramScope, rules_of
 from rpl.passes.legalise.facts.settingsinforce import SettingsInForce
+from rpl.passes.legalise.facts.worldframe import may_select_frames
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, edit_each, map_body
-from rpl.passes.legalise.rewriting.framedplaces import FramedPlaces, keeps_world
+from rpl.passes.legalise.rewriting.framedplaces import FramedPlaces
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -20,7 +21,7 @@ from rpl.passes.legalise.stages import legalising
 @legalising(sees=("operator :", "function compose"))
 def framed_moves(program: ir.Program, context: Context) -> ir.Program:
     """Where the base is the world all the time otherwise; it is set where another one is in force."""
-    if not keeps_world(program):
+    if not may_select_frames(program, modal=True):
         return program
     scopes, unchanged = ProgramScope(program), unchanged_in(program)
 

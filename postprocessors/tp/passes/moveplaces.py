@@ -9,8 +9,9 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
+from rpl.passes.legalise.facts.worldframe import may_select_frames
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
-from rpl.passes.legalise.rewriting.framedplaces import FramedPlaces, keeps_world
+from rpl.passes.legalise.rewriting.framedplaces import FramedPlaces
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -24,7 +25,7 @@ _PLAIN = (ir.Name, ir.Index, ir.Field)
 @legalising(sees=("operator :", "function compose", "function offset", "function tool_offset"))
 def places_of_moves(program: ir.Program, context: Context) -> ir.Program:
     """Frames in front of places and constant shifts are said at the move."""
-    worker = _Places(ShiftFrames(context), unchanged_in(program), keeps_world(program))
+    worker = _Places(ShiftFrames(context), unchanged_in(program), may_select_frames(program, modal=True))
     scopes = ProgramScope(program)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:

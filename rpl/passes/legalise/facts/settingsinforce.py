@@ -17,6 +17,7 @@ from rpl.passes.legalise.facts.usage import Usage, each_expression, usage_of
 from rpl.passes.legalise.facts.values.heldtexts import known_calls
 from rpl.passes.legalise.kinds import kinds_within
 from rpl.passes.scope import Scope, rules_of
+from rpl.passes.signatures import PLACES
 
 SETTINGS = frozenset(("tool", "base", "path_speed", "joint_speed", "blend_distance", "blend_joint"))
 # What else is followed, because the size of a corner that a speed decides depends on it. The values are those of a
@@ -51,16 +52,9 @@ Held = Mapping[str, ir.Expression]  # what of it is known, with a `$` in front
 _UNKNOWN: State = dict.fromkeys(_FOLLOWED)
 
 
-# Functions that give or take a pose in the modal frame where they are not told another.
-IN_FRAME = {
-    "current_target": 0,
-    "current_position": 0,
-    "joints_to_target": 1,
-    "target_to_joints": 1,
-    "target_to_joints_near": 2,
-    "is_reachable": 2,
-}
-
+# Functions that give or take a pose in the modal frame where they are not told another, with the number of their
+# arguments then: tool and frame are the last ones.
+IN_FRAME = {function: tool for function, (tool, _) in PLACES.items()}
 
 _ASKING = frozenset(("system actual_pose", *(f"function {name}" for name in IN_FRAME)))
 

@@ -9,32 +9,8 @@ from dataclasses import dataclass, replace
 
 from rpl import ir
 from rpl.passes.fold import Unchanged
-from rpl.passes.legalise.facts.forward import reactions
-from rpl.passes.legalise.facts.settingsinforce import IN_FRAME
-from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
-
-_ASKING = {"system actual_pose", *(f"function {name}" for name in IN_FRAME)}
-_LOOKED_AT = frozenset({"Assign", "Move", "Spline", "Vendor", "Opaque", *_ASKING})
-
-
-def keeps_world(program: ir.Program) -> bool:
-    """Is the frame in force the world all the time, and does nothing look where the robot is? Then moves may select
-    frames of their own."""
-    if any(True for _ in reactions(program)):
-        return False
-    for node in walk_for(_LOOKED_AT, *program.modules):
-        match node:
-            case ir.Assign(target=ir.System(name="base" | "displacement")) | ir.Vendor() | ir.Opaque() | ir.Spline():
-                return False
-            case ir.Move(frame=frame, search=search) if frame is not None or search is not None:
-                return False
-            case ir.System(name="actual_pose"):
-                return False
-            case ir.Builtin(function=function, arguments=given) if len(given) == IN_FRAME.get(function, -1):
-                return False
-    return True
 
 
 @dataclass(frozen=True, slots=True)

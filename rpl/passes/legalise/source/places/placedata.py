@@ -13,19 +13,17 @@ from functools import partial
 from rpl import ir
 from rpl.passes.capabilities import Postures
 from rpl.passes.legalise.context import Context
-from rpl.passes.legalise.kinds import kinds_in, walk_for
+from rpl.passes.legalise.facts.worldframe import may_select_frames
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import changed, rewrite_parts
 from rpl.passes.scope import ProgramScope, Scope
-from rpl.passes.signatures import PLACES
 from rpl.passes.typewords import type_word
 from rpl.passes.typing import type_of
 
 __all__ = ["places_as_targets"]
 
-_ASKING = frozenset(("system actual_pose", *(f"function {name}" for name in PLACES)))
 _SHIFTS = ("offset", "tool_offset")
 _Key = int  # identity of a declaration, or of a function for what it returns
 
@@ -33,28 +31,9 @@ _Key = int  # identity of a declaration, or of a function for what it returns
 @legalising(unless=lambda context: context.capabilities.places.postures is not Postures.FLAGS, sees=("Move",))
 def places_as_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only where the program tells places and poses apart all through."""
-    modal = context.capabilities.settings.modal
-    roles = _Roles(program, framed=_keeps_world(program) and not (modal and _asks(program)))
+    roles = _Roles(program, framed=may_select_frames(program, context.capabilities.settings.modal))
     roles.look()
     return _Rewriting(roles, ir.TargetType(context.capabilities.places.notation)).program(program)
-
-
-def _keeps_world(program: ir.Program) -> bool:
-    """Is the frame in force the world all the time? Then moves may have frames of their own."""
-    for node in walk_for({"Assign", "Vendor", "Opaque", "Spline", "Move", "System"}, *program.modules):
-        match node:
-            case ir.Assign(target=ir.System(name="base" | "displacement")) | ir.Vendor() | ir.Opaque() | ir.Spline():
-                return False
-            case ir.Move(frame=frame, search=search) if frame is not None or search is not None:
-                return False
-            case ir.System(name="base" | "displacement"):
-                return False
-    return True
-
-
-def _asks(program: ir.Program) -> bool:
-    """Does it ask for a place in the frame that is set? A frame that stays set behind a move would be another one."""
-    return not _ASKING.isdisjoint(kinds_in(program))
 
 
 @dataclass(slots=True)
