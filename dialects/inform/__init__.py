@@ -9,8 +9,8 @@ from rpl.registry import Dialect
 
 from .signals import signal_name, signal_of
 
-_JOB = re.compile(r"^\ufeff?\s*/JOB[ \t]*$", re.MULTILINE)
-_DUMP = re.compile(r"\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t]*$", re.MULTILINE)
+_JOB = re.compile(r"^\ufeff?\s*/JOB[ \t\r]*$", re.MULTILINE)
+DUMP_HEAD = re.compile(r"\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t\r]*$", re.MULTILINE)
 _DUMPS = ("VAR.DAT", "TOOL.CND", "UFRAME.CND")
 _SECTIONS = re.compile(r"^(?://NAME\b|//POS\b|//INST\b|///NPOS\b|///POSTYPE\b|///ATTR\b)", re.MULTILINE)
 _LINES = re.compile(
@@ -21,7 +21,7 @@ _LINES = re.compile(
 def _recognise(path: str, text: str) -> int:
     """How sure the content is a job, or a file of its controller's values (VAR.DAT, TOOL.CND, UFRAME.CND): by its
     header, then by the share of typical lines."""
-    if _DUMP.match(text[:200]):
+    if DUMP_HEAD.match(text[:200]):
         return 96
     head = text[:100_000]
     if _JOB.search(head[:2_000]):

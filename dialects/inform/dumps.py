@@ -26,6 +26,7 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics, Severity, code
 from rpl.source import Origin, Source
 
+from . import DUMP_HEAD
 from .jobs import POSE, PULSE, Frame, Point
 from .syntax import PointLine
 
@@ -35,7 +36,6 @@ BAD_VALUE = code(
     "this line of the controller's values cannot be read: {text}",
     "take the file from the controller anew",
 )
-_DUMP = re.compile(r"\A\ufeff?\s*//(?:VAR|TOOL[ \t]+\d+|UFRAME[ \t]+\d+)[ \t\r]*$", re.MULTILINE)
 _HEAD = re.compile(r"//(TOOL|UFRAME)[ \t]+(\d+)\s*\Z")
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _NUMBERS = re.compile(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})*\Z")
@@ -56,7 +56,7 @@ class Dump:
 
 def is_dump(text: str) -> bool:
     """Is the text a file of variables, tools or user frames?"""
-    return _DUMP.match(text[:200]) is not None
+    return DUMP_HEAD.match(text[:200]) is not None
 
 
 def read_dump(source: Source, into: Dump, diagnostics: Diagnostics) -> int:

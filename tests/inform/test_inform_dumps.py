@@ -70,9 +70,10 @@ def read(*files: tuple[str, str]) -> tuple[ReadProgram, Diagnostics]:
     return read_sources([source_from_text(*file) for file in files], "inform", found), found
 
 
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])  # controllers write the second
 @pytest.mark.parametrize("text", [VARIABLES, TOOLS, FRAMES])
-def test_they_are_known_by_their_content(text: str) -> None:
-    assert recognise(source_from_text("file.txt", text))[0] == "inform"
+def test_they_are_known_by_their_content(text: str, line_end: str) -> None:
+    assert recognise(source_from_text("file.txt", text.replace("\n", line_end)))[0] == "inform"
 
 
 def test_variables_begin_with_what_the_controller_has() -> None:
