@@ -73,3 +73,12 @@ END
 def test_a_counter_is_calculated_with_elsewhere() -> None:
     shown, _ = same_in_tp("krl", COUNTER)
     assert "TRUNC" not in "".join(shown.values())
+
+
+def test_a_group_is_set_from_an_input_over_a_register() -> None:
+    """`GO[1]=GI[2]` is refused by the loader (CrossArm validation, LS format 10)."""
+    text = "MODULE m\n  PROC p()\n    SetGO go1,GInput(gi2);\n  ENDPROC\nENDMODULE\n"
+    shown, _ = same_in_tp("rapid", text)
+    (line, setting) = [one for one in "".join(shown.values()).splitlines() if "GI[" in one or "GO[" in one]
+    assert "R[" in line.partition("=")[0] and line.rstrip(" ;").endswith("=GI[2]")
+    assert setting.rstrip(" ;").partition(":")[2].strip().startswith("GO[1]=R[")

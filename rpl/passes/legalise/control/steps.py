@@ -410,6 +410,8 @@ class _Steps(Hoister):
         value = _plain_number(value)
         if isinstance(target, ir.Signal) and Limit.PLAIN_PLACES in self.can.control.limits:
             before, value = self.operand(value)
+            if isinstance(value, ir.Signal) and not isinstance(self.editor.type_of(value), ir.BoolType):
+                before, value = self.stored(before, value)  # GO[4]=GI[3] is refused by loaders
         elif self.by_steps and isinstance(self.editor.type_of(target), ir.BoolType) and _is_logic(value):
             return expansion(statement.origin, (*first, *self.decided(place, value)))
         elif is_operand(value):
