@@ -190,6 +190,14 @@ class Target:
         """Rewritings right in front of the writer: what one instruction of the controller says together."""
         return cast("tuple[LastPass, ...]", _part(self.package, "passes", "LAST") or ())
 
+    def setup(
+        self, program: Program, there: Standing, signals: Mapping[tuple[str, int], str]
+    ) -> tuple[OutputFile, ...]:
+        """Files with what has to be on the controller beside a program, as its people enter it. there: what is;
+        signals: (kind, number) of the source -> name in the program."""
+        made = cast("Callable[..., list[OutputFile]] | None", _part(self.package, "setup", "setup"))
+        return () if made is None else tuple(made(program, there, signals))
+
     def write(self, program: Program, context: WriteContext) -> list[OutputFile]:
         """The files of a program in the target's terms."""
         for one in self.last():

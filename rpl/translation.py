@@ -57,7 +57,8 @@ class Translation:
     """Written files, the program as it was written (moves of one shape as Rows), names that changed, and what was lost
     (guarded stops). `registers`: the source names of data that has numbers in the target, by (bank, number); their
     types beside. `names`: every name that was given, source -> target; `map`: both as a file keeps them, with what an
-    earlier map says of names that the program has no more. `write`: what has made the files of the program; its reports
+    earlier map says of names that the program has no more. `setup`: files with what has to be on the controller beside
+    the program, such as its signals. `write`: what has made the files of the program; its reports
     are dropped."""
 
     files: tuple[OutputFile, ...]
@@ -68,6 +69,7 @@ class Translation:
     register_types: Mapping[tuple[str, int], str] = field(default_factory=dict)
     names: Mapping[str, str] = field(default_factory=dict)
     map: NameMap = field(default_factory=NameMap)
+    setup: tuple[OutputFile, ...] = ()
     write: Callable[[ir.Program], Sequence[OutputFile]] | None = field(default=None, repr=False, compare=False)
     _whole: list[ir.Program] = field(default_factory=list, init=False, repr=False, compare=False)
 
@@ -206,10 +208,7 @@ def _translated(
     try:
         files = target.write(program, asked)
     except UnicodeEncodeError as error:
-        if not templates:
-            raise
-        sign = error.object[error.start]
-        raise UsageError(f"a template of the plant's own gives {sign!r}, which {target.title} has not") from None
+        raise _strange_sign(error, target) if templates else error from None
     if templates:
         shipped = target.write(program, replace(asked, diagnostics=Diagnostics(), templates={}))
         compare_house_style(files, shipped, target_name, collector)
@@ -231,7 +230,14 @@ def _translated(
     def write(program: ir.Program) -> Sequence[OutputFile]:
         return target.write(program, replace(asked, diagnostics=Diagnostics()))
 
-    return Translation(tuple(files), written, renamed, losses, dict(numbers), dict(types), names, given, write)
+    setup = target.setup(program, context.there, _signals(context, renamed)) if context.foreign else ()
+    return Translation(tuple(files), written, renamed, losses, dict(numbers), dict(types), names, given, setup, write)
+
+
+def _strange_sign(error: UnicodeEncodeError, target: registry.Target) -> UsageError:
+    """A sign of a plant's own template that the controller has not."""
+    sign = error.object[error.start]
+    return UsageError(f"a template of the plant's own gives {sign!r}, which {target.title} has not")
 
 
 def _apart(renamed: Mapping[str, str], alone: Mapping[str, str]) -> dict[str, str]:

@@ -354,6 +354,7 @@ def _put(
     alone = output is None and not as_json
     shown = _printed(translation, target, proving) if alone else translation.files
     _alone(named[1], output, translation.files, target)
+    shown = shown if output is None else (*shown, *translation.setup)
     return _write(shown, output, translation.map, named, keeping)
 
 
