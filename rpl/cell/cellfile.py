@@ -6,7 +6,7 @@ statements stand for. Every error names the file and the key.
     external = [0, 500]                                  where external axes stand then (else where a move puts them)
     [[mechanism]] name = "table" ...                     see rpl.emulator.mechanismfile
     [[input]]     time = 1.5  signal = "di1"  value = true  [duration = 0.2]
-    [[reaction]]  when = "do1"  becomes = true  after = 0.4  signal = "di2"  value = true
+    [[reaction]]  when = "do1"  becomes = true  after = 0.4  signal = "di2"  value = true  [except = [2, 5]]
     [variables]   count = 3   "module.name" = [1, 2]   "data[1]" = { x = 10.0, y = 0.0 }
     [system]      path_speed = 100.0   tool = { x = 0, y = 0, z = 100, a = 0, b = 0, c = 0 }
     [[answer]]    answer = 2  [text = "regex"]  [after = 1.0]
@@ -43,13 +43,15 @@ class Input:
 
 @dataclass(frozen=True, slots=True)
 class Reaction:
-    """When `when` becomes `value`, `signal` becomes `result` after some seconds."""
+    """When `when` becomes `value`, `signal` becomes `result` after some seconds. `unanswered`: at which of these times,
+    counted from 1, it does not: a gripper that misses, a part that sticks."""
 
     when: str
     value: Value
     after_s: float
     signal: str
     result: Value
+    unanswered: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,6 +270,13 @@ class _Reader:
             raise self.wrong(f"{key}.{name}", f"must be a text, not {value!r}")
         return value
 
+    def times(self, key: str, row: dict[str, Value], name: str) -> tuple[int, ...]:
+        """The first, the third...: whole numbers from 1."""
+        given = row.get(name, [])
+        if not isinstance(given, list) or not all(type(one) is int and one >= 1 for one in given):
+            raise self.wrong(f"{key}.{name}", f"must be a list of whole numbers from 1, not {given!r}")
+        return tuple(given)
+
     def signal(self, key: str, row: dict[str, Value], name: str) -> Value:
         value = row[name]
         if not isinstance(value, bool | int | float):
@@ -290,7 +299,7 @@ class _Reader:
             yield Input(time + self.seconds(key, row, "duration"), signal, back)
 
     def reaction(self, key: str, row: dict[str, Value]) -> Reaction:
-        self.known(key, row, ("when", "signal", "value"), ("becomes", "after"))
+        self.known(key, row, ("when", "signal", "value"), ("becomes", "after", "except"))
         becomes = self.signal(key, row, "becomes") if "becomes" in row else True
         return Reaction(
             self.text(key, row, "when"),
@@ -298,6 +307,7 @@ class _Reader:
             self.seconds(key, row, "after"),
             self.text(key, row, "signal"),
             self.signal(key, row, "value"),
+            self.times(key, row, "except"),
         )
 
     def answers(self, table: dict[str, Value]) -> tuple[Answer, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import copy
 import random
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
@@ -98,6 +99,7 @@ class Machine:
         self.evaluating: list[int] = []  # cyclic flags that are being read
         self.random = random.Random(cell.seed)
         self.reactions = Reactions(linked, cell.reactions)
+        self.reacted: Counter[Reaction] = Counter()  # how often there was a cause, of those that do not always come
         for given in cell.inputs:
             self.schedule(given.time_s, INPUTS, "input", 0, given.signal, given.value)
 
@@ -407,7 +409,10 @@ class Machine:
     def _react(self, reactions: Iterable[Reaction]) -> None:
         """The world's answers to an output."""
         for each in reactions:
-            self.schedule(self.now + each.after_s, INPUTS, "input", 0, each.signal, each.result)
+            if each.unanswered:
+                self.reacted[each] += 1
+            if self.reacted[each] not in each.unanswered:
+                self.schedule(self.now + each.after_s, INPUTS, "input", 0, each.signal, each.result)
 
     def physical_name(self, key: Key, port: SignalRef, task: Task) -> str:
         """The one name of a signal: its own, or its number as its language spells it."""

@@ -18,7 +18,7 @@ class Reactions:
     """Those of a cell, by what they answer to: a signal, or a group of bits."""
 
     def __init__(self, linked: Linked, given: Sequence[Reaction]) -> None:
-        self.linked, self.given = linked, given
+        self.linked, self.given = linked, tuple(dict.fromkeys(given))  # one that is said twice is one answer
         self.names_known = -1  # how many names of signals the linker had when these were sorted
         self.single: list[tuple[frozenset[Key], Reaction]] = []
         self.groups: list[tuple[list[Key], Reaction]] = []

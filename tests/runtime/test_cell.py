@@ -63,3 +63,20 @@ def test_where_the_robot_stands_at_the_start() -> None:
     assert krl(body, cell=cell, robot="kuka_kr6r900sixx").messages == ("10",)
     with pytest.raises(UsageError, match="joints"):
         krl(body, cell="joints = [1, 2]", robot="kuka_kr6r900sixx")
+
+
+def test_a_reaction_does_not_come_at_times_that_are_left_out() -> None:
+    """A gripper that misses twice: the third time its switch comes."""
+    reaction = "[[reaction]]\nwhen = '$OUT[1]'\nafter = 0.1\nsignal = '$IN[1]'\nvalue = true\nexcept = [1, 2]\n"
+    body = "TRIES=0\nREPEAT\n$OUT[1]=FALSE\n$OUT[1]=TRUE\nTRIES=TRIES+1\nWAIT SEC 0.3\nUNTIL $IN[1]\n"
+    shown = 'MsgNotify("%1","",TRIES)'
+    assert krl(f"{body}{shown}", "DECL INT TRIES", cell=reaction).messages == ("3",)
+    twice = reaction + reaction  # one answer that is said twice counts once
+    assert krl(f"{body}{shown}", "DECL INT TRIES", cell=twice).messages == ("3",)
+
+
+@pytest.mark.parametrize("given", ["3", "[0]", "[1.5]", "[true]", "['first']"])
+def test_times_that_are_left_out_are_whole_numbers_from_one(given: str) -> None:
+    reaction = f"[[reaction]]\nwhen = '$OUT[1]'\nsignal = '$IN[1]'\nvalue = true\nexcept = {given}\n"
+    with pytest.raises(UsageError, match=r"reaction\[1\].except"):
+        krl("$OUT[1]=TRUE", cell=reaction)
