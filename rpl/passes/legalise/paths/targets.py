@@ -75,6 +75,7 @@ class Whole:
         self.context, self.scope, self.unchanged = context, scope, unchanged
         self.before, self.goes_on = before, goes_on
         self.declared: list[ir.Declaration] = []
+        self.around: tuple[ir.Statement, ...] = ()  # what was done in any case before the body that is looked at
 
     def body(self, body: ir.Body) -> ir.Body:
         done: list[ir.Statement] = []
@@ -87,8 +88,16 @@ class Whole:
                 self.stop_before(done, statement)  # such a way begins where the robot is
                 done.append(replace(statement, target=self.whole_way(statement.target)))
             else:
-                done.append(rewrite_bodies(statement, self.body))
+                done.append(self.within(statement, done))
         return tuple(done)
+
+    def within(self, statement: ir.Statement, done: list[ir.Statement]) -> ir.Statement:
+        """The bodies of a statement. What was done before a branch is known in it; a loop may come from its end."""
+        outside = self.around
+        self.around = (*outside, *done) if _branches(statement) else ()
+        rewritten = rewrite_bodies(statement, self.body)
+        self.around = outside
+        return rewritten
 
     def needs_work(self, move: ir.Move) -> bool:
         can = self.context.capabilities
@@ -263,8 +272,9 @@ class Whole:
 
     def last_target(self, done: list[ir.Statement], move: ir.Move) -> ir.Expression | None:
         """The target of the move before, when nothing in between can have moved the robot or changed the frame."""
-        at = self.before.found(done)
-        before = None if at is None else done[at]
+        known = [*self.around, *done]
+        at = self.before.found(known)
+        before = None if at is None else known[at]
         if at is None or not isinstance(before, ir.Move) or before.relative is not None or before.search is not None:
             return None
         target = before.target
@@ -275,13 +285,16 @@ class Whole:
             return None
         if not (isinstance(target, ir.Aggregate | ir.Builtin) or _is_product(target) or _is_place(target)):
             return None
-        lasts = _is_steady(target) and not self.before.may_change(target, done[at + 1 :], self.scope)
-        return target if lasts else self.kept(done, at, before)
+        if _is_steady(target) and not self.before.may_change(target, known[at + 1 :], self.scope):
+            return target
+        at -= len(self.around)
+        return self.kept(done, at, before) if at >= 0 else None
 
     def seen_alike(self, done: list[ir.Statement], move: ir.Move) -> ir.Move:
         """The move in the frame of the one before: along the tool it is the same way in every frame."""
-        at = self.before.found(done) if move.relative == "tool" and move.frame is None else None
-        before = None if at is None else done[at]
+        known = [*self.around, *done]
+        at = self.before.found(known) if move.relative == "tool" and move.frame is None else None
+        before = None if at is None else known[at]
         return replace(move, frame=before.frame) if isinstance(before, ir.Move) else move
 
     def type_of(self, target: ir.Expression) -> ir.Type | None:
@@ -367,6 +380,18 @@ class Whole:
 
 _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 _UNKNOWN_MOVES = (ir.CallRoutine, ir.Call, ir.Goto, ir.Label, ir.Spline, ir.MoveExternal)
+
+
+def _branches(statement: ir.Statement) -> bool:
+    """Does it choose one of its bodies, by conditions that call nothing?"""
+    match statement:
+        case ir.If(branches=branches):
+            asked = tuple(condition for condition, _ in branches)
+        case ir.Switch(selector=selector, cases=cases):
+            asked = (selector, *(value for case in cases for value in case.values))
+        case _:
+            return False
+    return not any(isinstance(node, ir.Call) for node in walk(asked))
 
 
 def _goes_on(move: ir.Move) -> bool:

@@ -2,6 +2,7 @@
 place and a way along its own axes (`tool_offset`), so that the place can be a taught one where targets say a posture.
 
 Only where the left side is a pose: the product of a place with a posture has none in its source, and goes on as it is.
+A frame in front (URScript `pose_trans(rack, pose_trans(spot, p[0,0,-0.05,0,0,0]))`) stays in front of the place.
 """
 
 from __future__ import annotations
@@ -52,6 +53,16 @@ def _moved(place: ir.Expression, scope: Scope) -> ir.Expression:
             | ir.Builtin(function="compose", arguments=(left, ir.Aggregate(type_name="pose", entries=entries)))
         ) if (way := _way(entries)) is not None and isinstance(type_of(left, scope), ir.PoseType):
             return ir.Builtin("tool_offset", (_moved(left, scope), *way), origin=place.origin)
+        case ir.Binary(op=":", left=frame, right=right) | ir.Builtin(function="compose", arguments=(frame, right)) if (
+            isinstance(type_of(frame, scope), ir.PoseType)
+        ):
+            inner = _moved(right, scope)
+            if inner is not right and isinstance(inner, ir.Builtin):
+                base, *rest = (
+                    inner.arguments
+                )  # a frame times (a place times a way): the way is the last in either order
+                seen = ir.Builtin("compose", (frame, base), origin=place.origin)
+                return replace(inner, arguments=(seen, *rest), origin=place.origin)
     return place
 
 
