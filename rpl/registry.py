@@ -6,7 +6,7 @@ A dialect is the folder `dialects/<name>/` whose `__init__` has `DIALECT`; a tar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
@@ -84,7 +84,7 @@ class Dialect:
     RULES, the data of its meaning; and where there are any, `prelude` has `prelude()`, its predefined data and system
     routines, `configuration` NOTATION, the flags of the arm's configuration, `loading` LOADER, what its controller
     refuses to load, `standing` has `standing`, what the files of a backup say is on the controller, beside the names
-    that its programs declare.
+    that its programs declare, `machine` has `arms`, what they call the arm.
 
     recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
     companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
@@ -139,6 +139,13 @@ class Dialect:
         """What the files of a backup say is on the controller, beside the names that its programs declare."""
         told = cast("Callable[[Sequence[Source]], Standing] | None", _part(self.package, "standing", "standing"))
         return NOTHING if told is None else told(sources)
+
+    def arms(self, sources: Sequence[Source]) -> list[tuple[str, str]]:
+        """What the files of a backup call the arm, as its maker writes it, each with the path of the file."""
+        told = cast(
+            "Callable[[Sequence[Source]], Iterable[tuple[str, str]]] | None", _part(self.package, "machine", "arms")
+        )
+        return [] if told is None else list(told(sources))
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from rpl import ir
 from rpl.ir.analog import MILLIAMPERES, VOLTS, AnalogPorts, AnalogRange
 
 ATTRIBUTE = "analog signal"
-_HEADER = re.compile(r"[\s\ufeff]*EIO:CFG_\d", re.IGNORECASE)
+_HEADER = re.compile(r"[\s\ufeff]*(?:EIO|MMC|MOC|PROC|SIO|SYS):CFG_\d", re.IGNORECASE)
 _SECTION = re.compile(r"^(\w+):[ \t]*\r?$", re.MULTILINE)
 _CONTINUED = re.compile(r"\\[ \t]*\r?\n")
 _VALUE = re.compile(r'-(\w+)[ \t]+(?:"([^"\n]*)"|([^\s"]+))')
@@ -23,7 +23,7 @@ _MOST_VOLTS, _MOST_MILLIAMPERES = 10.0, 20.0
 
 
 def is_configuration(text: str) -> bool:
-    """Is the text an I/O configuration?"""
+    """Is the text a part of the controller's configuration (SYSPAR of a backup)?"""
     return _HEADER.match(text) is not None
 
 

@@ -30,6 +30,7 @@ COMMANDS = {
     "dialects": "List the languages that can be read and written.",
     "robots": "List the robot models that come with the package.",
     "check": "Read programs and report what cannot be read or makes no sense.",
+    "project": "Show what a backup holds: programs, calls, signals, points.",
     "translate": "Write programs in another controller's language.",
     "run": "Run a program on an emulated robot.",
     "fit": "Adjust the motion parameters of a controller to a recorded log.",

@@ -16,7 +16,7 @@ LEVELS = [
     ["cli"],
     ["api"],
     ["proof", "fitting"],
-    ["project", "translation", "simulation", "standing", "report", "housestyle"],
+    ["project", "translation", "simulation", "standing", "report", "inventory", "housestyle"],
     ["sidefiles", "archives"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],

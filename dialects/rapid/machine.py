@@ -1,0 +1,20 @@
+"""The arm that a backup is of: its type as the configuration of motion (SYSPAR/MOC.cfg) names it.
+
+Seen in backups of RobotWare 6: `ROBOT: -name "ROB_1" -use_robot_type "ROB1_6700_LeanID_2.65_220"`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from rpl.source import Source
+
+_TYPE = re.compile(r'-use_robot_type\s+"([^"\n]+)"')
+
+
+def arms(sources: Sequence[Source]) -> Iterator[tuple[str, str]]:
+    """The types of the arms, with the file that names each."""
+    for source in sources:
+        if source.text.lstrip("\ufeff \t\r\n").upper().startswith("MOC:CFG"):
+            yield from ((found[1], source.path) for found in _TYPE.finditer(source.text))

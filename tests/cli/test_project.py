@@ -1,0 +1,65 @@
+"""`rpl project`: the contents of a backup as a tree, a document and a page."""
+
+from __future__ import annotations
+
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from rpl.cli.main import run
+
+SAMPLE = str(Path(__file__).parents[2] / "samples" / "krl" / "palletiser")
+
+
+def test_a_tree_for_people(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["project", SAMPLE]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "krl, 2 files, 90 statements, 3 routines, 12 moves"
+    assert lines[1:5] == [
+        "programs that can be started:",
+        "  Palletiser (palletiser.src:4; 25 statements, 3 moves)",
+        "    Pick (palletiser.src:42; 9 statements, 4 moves)",
+        "    Place (palletiser.src:55; 19 statements, 5 moves)",
+    ]
+    assert "  digital out 1 doVacuum: written by Palletiser, Pick, Place; read by nobody" in lines
+    assert "  tool Gripper (palletiser.dat:17): used by Palletiser" in lines
+
+
+def test_a_document_for_machines(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["project", SAMPLE, "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["entries"] == ["Palletiser"] and document["arms"] == [] and document["diagnostics"] == []
+
+
+class _Page(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.links: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.links += [str(value) for name, value in attrs if name in ("src", "href")]
+
+
+def test_a_page_that_loads_nothing_and_escapes_names(tmp_path: Path) -> None:
+    (tmp_path / "p.mod").write_text('MODULE p\nPROC main()\nlost;\n%"<b>"%;\nSet do_1;\nENDPROC\nENDMODULE\n')
+    page = tmp_path / "page.html"
+    assert run(["project", str(tmp_path / "p.mod"), "--html", str(page)]) == 0
+    text = page.read_text("utf-8")
+    reader = _Page()
+    reader.feed(text)
+    assert reader.links == [] and "default-src 'none'" in text
+    assert re.search(r'<g class="missing" data-name="lost"', text)
+    assert "<b>" not in text
+    (tmp_path / "own.html").write_text("mine")
+    assert run(["project", str(tmp_path / "p.mod"), "--html", str(tmp_path / "own.html")]) == 2
+    assert (tmp_path / "own.html").read_text() == "mine"
+
+
+def test_nothing_to_show_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "notes.txt").write_text("buy milk")
+    assert run(["project", str(tmp_path)]) == 2
+    assert "no robot program was found" in capsys.readouterr().err

@@ -1,0 +1,83 @@
+"""What a project holds: programs and calls, what is missing, who writes and reads signals, points, frames, tools."""
+
+from __future__ import annotations
+
+from rpl.diagnostics import Diagnostics
+from rpl.inventory.contents import Contents, contents
+from rpl.project import read_sources
+from rpl.source import source_from_text
+
+KRL = {
+    "cell.dat": "DEFDAT cell\nSIGNAL doGrip $OUT[3]\nDECL FRAME Table={X 1,Y 2,Z 3,A 0,B 0,C 0}\n"
+    "DECL E6POS XPick={X 1,Y 2,Z 3,A 0,B 90,C 0,S 2,T 35}\nENDDAT\n",
+    "cell.src": "DEF cell()\n$BASE=Table\nPTP XPick\nPick(2)\nLost()\nPULSE($OUT[5],TRUE,0.5)\nIF $IN[7] THEN\n"
+    "Pick(1)\nENDIF\nEND\n"
+    "DEF Pick(level:IN)\nDECL INT level\ndoGrip=TRUE\nWAIT FOR doGrip\nIF level>1 THEN\nPick(level-1)\n"
+    "ENDIF\nEND\nDEF Spare(level:IN)\nDECL INT level\n$OUT[level]=TRUE\nEND\nDEF Other()\n$OUT[4]=far\nEND\n",
+}
+
+
+def found(files: dict[str, str], dialect: str) -> Contents:
+    diagnostics = Diagnostics()
+    read = read_sources([source_from_text(path, text) for path, text in files.items()], dialect, diagnostics)
+    return contents(read, diagnostics)
+
+
+def test_programs_and_calls() -> None:
+    programs = {one.name: one for one in found(KRL, "krl").programs}
+    assert list(programs) == ["cell", "Pick", "Spare", "Other"]
+    assert programs["cell"].calls == ("Pick",) and programs["cell"].missing == ("Lost",)
+    assert programs["cell"].moves == 1 and programs["cell"].place == "cell.src:1"
+    assert programs["Pick"].called_by == ("cell",)  # a routine that calls itself is called by nobody for that
+    assert [name for name, one in programs.items() if one.entry] == ["cell", "Other"]
+
+
+def test_what_nobody_calls_and_cannot_be_started_is_unused() -> None:
+    assert [one.name for one in found(KRL, "krl").unused] == ["Spare"]
+
+
+def test_what_is_missing_has_its_places() -> None:
+    missing = {(one.kind, one.name): one.places for one in found(KRL, "krl").missing}
+    assert missing == {("routine", "Lost"): ("cell.src:5",), ("datum", "far"): ("cell.src:24",)}
+
+
+def test_signals_by_writers_and_readers() -> None:
+    signals = {(one.kind, one.number, one.name): (one.writers, one.readers) for one in found(KRL, "krl").signals}
+    assert signals == {
+        ("digital in", "7", ""): ((), ("cell",)),
+        ("digital out", "computed", ""): (("Spare",), ()),
+        ("digital out", "3", "doGrip"): (("Pick",), ("Pick",)),
+        ("digital out", "4", ""): (("Other",), ()),
+        ("digital out", "5", ""): (("cell",), ()),
+    }
+
+
+def test_points_frames_and_tools() -> None:
+    data = {one.name: (one.kind, one.place, one.used_by) for one in found(KRL, "krl").data}
+    assert data == {"Table": ("work object", "cell.dat:3", ("cell",)), "XPick": ("point", "cell.dat:4", ("cell",))}
+
+
+def test_tasks_traps_and_functions() -> None:
+    text = (
+        "MODULE m\nVAR intnum i;\nPROC main()\nCONNECT i WITH tStop;\nISignalDI diStop,1,i;\nrun size(2);\nENDPROC\n"
+        "PROC run(num n)\nWaitTime n;\nENDPROC\nFUNC num size(num n)\nRETURN n;\nENDFUNC\n"
+        "TRAP tStop\nStop;\nENDTRAP\nENDMODULE\n"
+    )
+    programs = {one.name: one for one in found({"m.mod": text}, "rapid").programs}
+    assert programs["main"].calls == ("tStop", "run", "size")
+    assert [(one.kind, one.called_by) for one in programs.values()] == [
+        ("procedure", ()),
+        ("procedure", ("main",)),
+        ("function", ("main",)),
+        ("trap", ("main",)),
+    ]
+
+
+def test_the_same_for_machines() -> None:
+    document = found(KRL, "krl").as_json()
+    assert document["languages"] == ["krl"] and document["entries"] == ["cell", "Other"]
+    assert document["unused"] == ["Spare"]
+    assert [(one["file"], one["dialect"], one["opaque"]) for one in document["files"]] == [
+        ("cell.dat", "krl", 0),
+        ("cell.src", "krl", 0),
+    ]
