@@ -15,7 +15,7 @@ from rpl.diagnostics import Severity, code
 from rpl.ir.types import POSITIONAL
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.usage import each_expression
-from rpl.passes.legalise.kinds import walk_for
+from rpl.passes.legalise.kinds import kinds_in, walk_for
 from rpl.passes.legalise.rewriting.walk import Rewriter
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.signatures import PLACES
@@ -51,7 +51,9 @@ def coordinated_moves(program: ir.Program, context: Context) -> ir.Program:
     ):
         program = _Composed(program, context).program()
     lacking = tuple(name for name in (SETTING, REMOTE) if name not in can.system_variables)
-    return _Guarded(program, context, lacking).program() if lacking else program
+    if kinds_in(program).isdisjoint(f"system {name}" for name in lacking):
+        return program
+    return _Guarded(program, context, lacking).program()
 
 
 def _is_carried(node: object) -> bool:

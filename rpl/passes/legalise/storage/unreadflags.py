@@ -32,22 +32,27 @@ def unread_flags(program: ir.Program, context: Context) -> ir.Program:
         for one in declared
         if isinstance(one, ir.Variable) and one.origin is NOWHERE and one.storage == "variable"
     }
+    waits = walk_for({"WaitUntil"}, *program.modules) if numbered else ()
+    written = Counter(
+        node.timed_out.id.lower()
+        for node in waits
+        if isinstance(node, ir.WaitUntil) and isinstance(node.timed_out, ir.Name)
+    )
+    asked = made | written.keys()
+    if not asked:
+        return program
     named: Counter[str] = Counter()
-    written: Counter[str] = Counter()
-    flags: set[str] = set()
     effects = Effects(program)
-    for node in walk_for({"Name", "Assign", "WaitUntil"}, *program.modules):
+    for node in walk_for({"Name", "Assign"}, *program.modules):
         match node:
             case ir.Name(id=name):
                 named[name.lower()] += 1
-            case ir.Assign(target=ir.Name(id=name), value=value) if effects.safe(value):
-                written[name.lower()] += 1
-            case ir.Assign(target=target, value=value) if base_name(target) in settings and effects.safe(value):
-                written[base_name(target) or ""] += 1
-            case ir.WaitUntil(timed_out=ir.Name(id=name)) if numbered:
-                written[name.lower()] += 1
-                flags.add(name.lower())
-    idle = {name for name in made | flags if written[name] and named[name] == written[name]}
+            case ir.Assign(target=target, value=value):
+                whole = isinstance(target, ir.Name)
+                base = base_name(target) or ""
+                if base in (asked if whole else settings) and effects.safe(value):
+                    written[base] += 1
+    idle = {name for name in asked if written[name] and named[name] == written[name]}
     idle |= {name for name in made - settings if not named[name]} - mentioned(program)
     return _without(program, idle, settings) if idle else program
 
