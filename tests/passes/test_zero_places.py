@@ -21,6 +21,7 @@ P[1]{
 /END
 """
 SHIFTED = "   1:  PR[1]=LPOS-LPOS ;\n   2:  PR[1,1]=R[1]*10 ;\n   3:L P[1] 100mm/sec FINE Offset,PR[1] ;\n"
+SEEN = SHIFTED + "   4:  R[2]=PR[1,1] ;\n"
 DRIVEN = "   1:  PR[1]=LPOS-LPOS ;\n   2:  PR[1,1]=500 ;\n   3:L PR[1] 100mm/sec FINE ;\n"
 
 
@@ -41,7 +42,13 @@ def _written(lines: str, target: str) -> list[str]:
     ],
 )
 def test_a_place_that_only_shifts_is_set_as_a_whole(target: str, line: str) -> None:
-    assert line in _written(SHIFTED, target)
+    assert line in _written(SEEN, target)
+
+
+def test_one_that_nothing_else_looks_at_is_a_way_in_the_move() -> None:
+    written = _written(SHIFTED, "rapid")
+    assert any("Offs(P1,R1*10,0,0)" in line for line in written)
+    assert not any("PR1" in line for line in written)
 
 
 @pytest.mark.parametrize("target", ["krl", "rapid"])

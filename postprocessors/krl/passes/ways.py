@@ -53,6 +53,9 @@ def _moved(target: ir.Expression, kind: str, straight: frozenset[str]) -> ir.Exp
         case ir.Builtin(function="pose_of", arguments=(inner,)):
             found = _moved(inner, "", straight)
             return target if found is inner else found
+        case ir.Builtin(function="tool_offset", arguments=(inner, *along)):  # the way along the tool stands behind both
+            found = _moved(inner, kind, straight)
+            return target if found is inner else replace(target, arguments=(found, *along))
         case ir.Builtin(function="offset", arguments=(ir.Name() as base, *parts)) if kind != "joint":
             match parts:
                 case [ir.Field(base=ir.Name(id=x) as way), ir.Field(base=ir.Name(id=y)), ir.Field(base=ir.Name(id=z))]:

@@ -4,6 +4,7 @@ A controller that shifts all positions from one instruction on (INFORM SFTON) ke
 frame : way : inverse(frame)`, and each move goes in `shift : frame`. That is `frame : way`, a product that people write
 where places have products. Where they have none and the way turns nothing, it is the point offset by x, y and z of the
 way (RAPID Offs), or by the way itself (TP `Offset,PR[n]`, which adds components; elsewhere that is an offset too).
+A register that nothing sets is its numbers (TP `Tool_Offset,PR[n]` is RelTool by them).
 """
 
 from __future__ import annotations
@@ -23,13 +24,15 @@ from rpl.passes.legalise.stages import legalising
 
 __all__ = ["known_shifts"]
 
+_SEEN = ("function inverse", "function element_sum", "function displaced_in_tool")
+_PARTS = ("x", "y", "z")
 _NOWHERE = ir.System("null_frame")
 # Folded name of a variable -> the shift that it holds; a name as _straight makes it: a place that turns nothing.
 State = Mapping[str, ir.Expression]
 _KNOWN_OF_NONE: State = {}
 
 
-@legalising(unless=lambda context: not context.foreign, sees=("function inverse", "function element_sum"))
+@legalising(unless=lambda context: not context.foreign, sees=_SEEN)
 def known_shifts(program: ir.Program, context: Context) -> ir.Program:
     """Not in the program's own language, which has an instruction for it. Only shifts that the reader keeps for the
     controller are looked at: they begin as none. One that nothing reads any more goes."""
@@ -37,7 +40,7 @@ def known_shifts(program: ir.Program, context: Context) -> ir.Program:
     straight = any(
         isinstance(node, ir.Assign) and _turns_nothing(node.value) for node in walk_for({"Assign"}, *program.modules)
     )
-    if not shifts and not straight:
+    if not shifts and not straight and not _constant_ways(program):
         return program
     moves = _Moves(program, shifts, context.capabilities.places)
     if not moves.found:
@@ -103,6 +106,7 @@ class _Moves(InForce[ir.Expression]):
     def __init__(self, program: ir.Program, shifts: frozenset[str], can: Places) -> None:
         super().__init__(program, dict.fromkeys(shifts, _NOWHERE))
         self.shifts, self.can = shifts, can
+        self.constant = _constant_ways(program)
         self.met: dict[int, tuple[ir.Move, ir.Move | None]] = {}
         self.follow_program()
         self.found = {key: new for key, (_, new) in self.met.items() if new is not None}
@@ -112,12 +116,29 @@ class _Moves(InForce[ir.Expression]):
         match target:
             case ir.Name() if name in self.shifts:
                 return {**kept, name: value}
-            case ir.Field(base=ir.Name(), name=part) if part.lower() in ("x", "y", "z"):
+            case ir.Field(base=ir.Name(), name=part) if part.lower() in _PARTS:
                 turned = _straight(name)
                 return {**kept, turned: before[turned]} if turned in before else kept
             case ir.Name() if _turns_nothing(value):
                 return {**kept, _straight(name): _NOWHERE}
         return kept
+
+    def shifted(self, place: ir.Expression, state: State) -> ir.Expression:
+        """The place with the ways that are surely along the frame or the tool as numbers."""
+        match place:
+            case ir.Builtin(function="displaced_in_tool", arguments=(base, ir.Builtin("pose_of", (ir.Name(id=name),)))):
+                way = self.constant.get(name.lower())
+                moved = self.shifted(base, state)
+                if way is not None:
+                    return ir.Builtin("tool_offset", (moved, *way), origin=place.origin)
+                return place if moved is base else replace(place, arguments=(moved, place.arguments[1]))
+            case ir.Builtin(function="element_sum", arguments=(base, ir.Name(id=name) as way)):
+                known = self.constant.get(name.lower())
+                if known is not None:
+                    return ir.Builtin("offset", (base, *known), origin=place.origin)
+                if _straight(name.lower()) in state:
+                    return ir.Builtin("offset", (base, *_parts(way)), origin=place.origin)
+        return place
 
     def rests_on(self, value: ir.Expression) -> set[str]:
         return _names(value)
@@ -133,11 +154,11 @@ class _Moves(InForce[ir.Expression]):
         self.met[id(statement)] = statement, new if new == earlier else None
 
     def said(self, move: ir.Move, state: State) -> ir.Move | None:
-        match move.target:
-            case ir.Builtin(function="element_sum", arguments=(place, ir.Name() as way)) if self.is_plain(
-                move, state, way
-            ):
-                return None if self.can.move_functions & {"element_sum", "displaced"} else self.along(move, place, way)
+        plainly = move.via is None and move.relative is None
+        if plainly and not self.can.move_functions & {"element_sum", "displaced"}:
+            target = self.shifted(move.target, state)
+            if target is not move.target:
+                return replace(move, target=target)
         match move.frame:
             case ir.Name(id=name):
                 frame: ir.Expression | None = None
@@ -169,8 +190,24 @@ class _Moves(InForce[ir.Expression]):
         return _straight(way.id.lower()) in state and move.via is None and move.relative is None
 
     def along(self, move: ir.Move, place: ir.Expression, way: ir.Name) -> ir.Move:
-        parts = (ir.Field(way, part) for part in ("x", "y", "z"))
-        return replace(move, target=ir.Builtin("offset", (place, *parts)))
+        return replace(move, target=ir.Builtin("offset", (place, *_parts(way))))
+
+
+def _parts(way: ir.Name) -> tuple[ir.Expression, ...]:
+    return tuple(ir.Field(way, part) for part in _PARTS)
+
+
+def _constant_ways(program: ir.Program) -> dict[str, tuple[ir.Expression, ...]]:
+    """Data (folded names) that nothing sets and that turns nothing: its x, y and z."""
+    usage, found = usage_of(program), {}
+    declared = [one.name.lower() for one in _variables(program)]
+    for one in _variables(program):
+        name = one.name.lower()
+        if isinstance(one.initial, ir.Aggregate) and _turns_nothing(one.initial) and name not in usage.assigned:
+            entries = dict(one.initial.entries)
+            if declared.count(name) == 1 and entries.keys() >= set(_PARTS):
+                found[name] = tuple(entries[part] for part in _PARTS)
+    return found
 
 
 def _straight(name: str) -> str:

@@ -1,7 +1,8 @@
 """A variable that only holds the way by which places are moved (INFORM `SETE P010 (1) D000` in front of SFTON), for
 targets whose moves say such a way in numbers (`Offs(corner,column*140,row*120,layer*70)`).
 
-Its components are set once, one behind the other, and nothing else looks at it: they stand in the moves themselves.
+Its components are set once, one behind the other, and nothing else looks at it: they stand in the moves themselves. It
+is emptied in front of them, or in another routine (TP `PR[11]=LPOS-LPOS` at the start).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.paths.movebefore import MovesBefore
+from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_parts
@@ -33,15 +35,43 @@ def ways_as_numbers(program: ir.Program, context: Context) -> ir.Program:
     named = Counter(one.id.lower() for one in walk_for({"Name"}, *program.modules) if isinstance(one, ir.Name))
     scopes, before = ProgramScope(program), MovesBefore(program, unchanged_in(program))
     gone: set[int] = set()  # declarations, by identity
+    emptied = _emptied(program)
     modules = []
     for module in program.modules:
         routines = []
         for routine in module.routines:
             if not any(bodies(routine)[1:]):
-                routine = _written(routine, scopes.routine(module, routine), named, before, gone)
+                routine = _written(routine, scopes.routine(module, routine), named, before, emptied, gone)
             routines.append(routine)
         modules.append(replace(module, routines=tuple(routines)))
-    return replace(program, modules=tuple(_without(module, gone) for module in modules)) if gone else program
+    done = replace(program, modules=tuple(_without(module, gone) for module in modules))
+    return without_unread(done, emptied.keys())
+
+
+def _emptied(program: ir.Program) -> Counter[str]:
+    """Variables (folded names) that are never set as a whole but to nothing, and begin with nothing if with a value:
+    how often they are emptied by what names nothing else."""
+    found, filled = Counter[str](), set[str]()
+    for node in walk_for({"Assign", "Variable"}, *program.modules):
+        match node:
+            case ir.Assign(target=ir.Name(id=name), value=value):
+                if _names_nothing(value):
+                    found[name.lower()] += 1
+                else:
+                    filled.add(name.lower())
+            case ir.Variable(name=name, initial=value) if value is not None and not _names_nothing(value):
+                filled.add(name.lower())
+    return Counter({name: times for name, times in found.items() if name not in filled})
+
+
+def _names_nothing(value: ir.Expression) -> bool:
+    """A place without a way: a written one, or the robot's less itself."""
+    match value:
+        case ir.Builtin(function="element_difference", arguments=(one, other)):
+            return one == other and not any(isinstance(node, ir.Call | ir.Name) for node in walk((one,)))
+        case ir.Aggregate():
+            return _is_nothing(value, "")
+    return False
 
 
 def _without(module: ir.Module, gone: set[int]) -> ir.Module:
@@ -56,26 +86,34 @@ def _without(module: ir.Module, gone: set[int]) -> ir.Module:
 @dataclass(frozen=True, slots=True)
 class _Way:
     """The statements from `first` up to `behind` set the components of a variable. `name`: folded; `shown`: as it is
-    written."""
+    written. `elsewhere`: how often it is named where other statements empty it."""
 
     name: str
     shown: str
     first: int
     behind: int
     parts: Mapping[str, ir.Expression]
+    elsewhere: int = 0
 
 
-def _written(routine: ir.Routine, scope: Scope, named: Counter[str], before: MovesBefore, gone: set[int]) -> ir.Routine:
+def _written(
+    routine: ir.Routine,
+    scope: Scope,
+    named: Counter[str],
+    before: MovesBefore,
+    emptied: Counter[str],
+    gone: set[int],
+) -> ir.Routine:
     body = routine.body
     at = 0
     while at < len(body):
-        way = _way(body, at)
+        way = _way(body, at) or _way_set(body, at, emptied)
         if way is not None and _is_only_a_way(way, body, scope, named, before):
             kept = [ir.Nothing(origin=one.origin) for one in body[at : way.behind] if one.origin.comments]
             body = (*body[:at], *kept, *(_moved(one, way) for one in body[way.behind :]))
             at += len(kept)
             symbol = scope.value(way.shown)
-            if symbol is not None:
+            if symbol is not None and not way.elsewhere:
                 gone.add(id(symbol.declaration))
         else:
             at += 1
@@ -89,8 +127,29 @@ def _way(body: ir.Body, at: int) -> _Way | None:
             pass
         case _:
             return None
+    behind, parts = _parts_set(body, at + 1, name)
+    return _Way(name.lower(), name, at, behind, parts) if parts else None
+
+
+def _way_set(body: ir.Body, at: int, emptied: Counter[str]) -> _Way | None:
+    """A variable that is emptied elsewhere and whose components are set here, where no jump comes past and nothing that
+    is called later empties it."""
+    match body[at]:
+        case ir.Assign(target=ir.Field(base=ir.Name(id=name))) if emptied[name.lower()]:
+            behind, parts = _parts_set(body, at, name)
+        case _:
+            return None
+    jumps = any(isinstance(node, ir.Goto) for node in walk(*body[:at]))
+    calls = any(isinstance(node, ir.CallRoutine | ir.Call) for node in walk(*body[behind:]))
+    if jumps or calls or not parts:
+        return None
+    return _Way(name.lower(), name, at, behind, parts, emptied[name.lower()])
+
+
+def _parts_set(body: ir.Body, at: int, name: str) -> tuple[int, dict[str, ir.Expression]]:
+    """What the statements from here on set x, y and z of a variable to, and which is the first that does not."""
     parts: dict[str, ir.Expression] = {}
-    for behind in range(at + 1, len(body) + 1):
+    for behind in range(at, len(body) + 1):
         match body[behind] if behind < len(body) else None:
             case ir.Assign(target=ir.Field(base=ir.Name(id=one), name=part), value=value) if (
                 one.lower() == name.lower() and part in _PARTS and part not in parts
@@ -98,7 +157,7 @@ def _way(body: ir.Body, at: int) -> _Way | None:
                 parts[part] = value
             case _:
                 break
-    return _Way(name.lower(), name, at, behind, parts) if parts else None
+    return behind, parts
 
 
 def _is_nothing(value: ir.Expression, name: str) -> bool:
@@ -119,7 +178,11 @@ def _is_only_a_way(way: _Way, body: ir.Body, scope: Scope, named: Counter[str], 
         isinstance(one, ir.Name) and one.id.lower() == way.name for one in walk(*body[way.first : way.behind])
     )
     used = sum(_uses(one, way.name) for one in walk(*rest))
-    if not used or set_here + used != named[way.name] or any(_asks(one, way) for one in way.parts.values()):
+    if (
+        not used
+        or set_here + used + way.elsewhere != named[way.name]
+        or any(_asks(one, way) for one in way.parts.values())
+    ):
         return False
     return not any(before.may_change(one, rest, scope) for one in way.parts.values())
 
