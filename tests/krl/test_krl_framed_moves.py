@@ -61,3 +61,32 @@ def test_a_first_move_in_the_world_has_the_world_as_its_base() -> None:
 @pytest.mark.parametrize("text", [CHANGED, SEEN], ids=["the frame changes", "the program looks where the robot is"])
 def test_a_product_stays_where_the_base_would_mean_something_else(text: str) -> None:
     assert "LIN table:above" in _moves(text)
+
+
+USED = SCRIPT.replace("  movel(apart", "  if pose_dist(above, place) > 0.05:\n    sleep(0.1)\n  end\n  movel(apart")
+LISTED = """def cell():
+  global table = p[0.4, -0.2, 0.1, 0, 0, 0.3]
+  global slots = [p[0.1, 0.05, 0.2, 3.14, 0, 0], p[0.2, 0.05, 0.2, 3.14, 0, 0]]
+  i = 0
+  while i < 2:
+    movel(pose_trans(table, slots[i]), a=1.2, v=0.25)
+    i = i + 1
+  end
+end
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        (USED, "LIN above"),  # a pose that is something else as well
+        (LISTED, "LIN slots[i+1]"),
+        (
+            SCRIPT.replace("(table, above)", "(table, pose_trans(above, p[0,0,-0.05,0,0,0.1]))"),
+            "LIN above:{FRAME: X 0.0,Y 0.0,Z -50.0,A 5.729578,B 0.0,C 0.0}",
+        ),
+    ],
+)
+def test_poses_that_are_no_taught_places_are_in_the_base_too(text: str, place: str) -> None:
+    moves = _moves(text)
+    assert moves[moves.index("$BASE=BASE_DATA[1]") + 1] == place

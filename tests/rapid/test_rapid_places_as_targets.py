@@ -66,9 +66,6 @@ def test_places_are_targets(steps: str, head: list[str], goals: list[str]) -> No
     ("steps", "more"),
     [
         (" MOVES table:place\n SET table = SHIFT(table BY 0,0,20)\n MOVES table:place", ""),  # the frame is assigned
-        (" MOVES table:place\n IF DISTANCE(place,table) > 10 THEN\n SIGNAL 5\n END", ""),  # poses of a function
-        (" MOVES table:place\n SET other = INVERSE(place)\n MOVES table:place", ""),
-        (" MOVES table:place\n MOVES table:place:TRANS(0,0,-30,0,0,90)", ""),  # it turns the tool
         (
             " CALL go(place, 20)\n CALL go(table:place, 30)",  # the parameter is a product once
             ".PROGRAM go(p, h)\n APPROS p, h\n MOVES p\n BREAK\n DEPARTS h\n.END\n",
@@ -78,6 +75,21 @@ def test_places_are_targets(steps: str, head: list[str], goals: list[str]) -> No
 def test_poses_that_are_something_else_stay_poses(steps: str, more: str) -> None:
     journey = vplus(steps, more)
     assert all(line in journey.text for line in POSES) and "wobjdata" not in journey.text, journey.text
+    proved(journey)
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [
+        " MOVES table:place\n IF DISTANCE(place,table) > 10 THEN\n SIGNAL 5\n END",  # poses of a function
+        " MOVES table:place\n SET other = INVERSE(place)\n MOVES table:place",
+        " MOVES table:place\n MOVES table:place:TRANS(0,0,-30,0,0,90)",  # it turns the tool
+    ],
+)
+def test_such_poses_are_in_the_frame_that_they_are_seen_from(steps: str) -> None:
+    journey = vplus(steps, "")
+    assert POSES[0] in journey.text and "PoseMult(table" not in journey.text, journey.text
+    assert all(r"\WObj:=table" in one for one in targets(journey.text)[-1:]), journey.text
     proved(journey)
 
 
@@ -141,8 +153,8 @@ end
         ),
         (
             "  if pose_dist(place, table) > 0.1:\n    set_digital_out(2, True)\n  end",
-            ["VAR pose table:=", "VAR pose place:="],
-            "wobj",
+            ["VAR pose place:=", r"\WObj:=table;", "table.uframe"],
+            "PoseMult(table",
         ),
     ],
 )

@@ -6,7 +6,6 @@ from rpl.passes.legalise.stages import Placed
 
 from .begunanew import begun_anew
 from .changedplaces import changed_places
-from .framedmoves import framed_moves
 from .framenumbers import frame_numbers
 from .groups import name_groups
 from .heldmotion import held_motion
@@ -30,7 +29,6 @@ PASSES: tuple[Placed, ...] = (
     Placed(name_groups, "io", behind="number_signals"),
     Placed(states_of_writes, "statements", behind="rewrite_calls"),
     Placed(settings_of_one_move, "settings", behind="accelerations_of_moves"),
-    Placed(framed_moves, "settings", before="own_places"),
     Placed(start_bases, "settings", behind="explicit_to_modal"),
     Placed(said_shifts, "settings", behind="stand_first"),
     Placed(frame_numbers, "settings", behind="stand_first"),

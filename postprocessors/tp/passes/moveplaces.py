@@ -1,5 +1,5 @@
-"""Places of moves as people say them in TP: a place seen from a named frame is one in that user frame, and a shift by
-constants is `Offset,PR[n]` or `Tool_Offset,PR[n]` on the taught point, not a place computed in front of the move.
+"""Places of moves as people say them in TP: a shift by constants is `Offset,PR[n]` or `Tool_Offset,PR[n]` on the taught
+point, not a place computed in front of the move.
 """
 
 from __future__ import annotations
@@ -9,9 +9,7 @@ from dataclasses import dataclass, field, replace
 from rpl import ir
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
-from rpl.passes.legalise.facts.worldframe import may_select_frames
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
-from rpl.passes.legalise.rewriting.framedplaces import FramedPlaces
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames
 from rpl.passes.legalise.rewriting.jumps import inside
 from rpl.passes.legalise.rewriting.walk import unchanged_in
@@ -22,10 +20,10 @@ _SHIFTS = {"offset": "element_sum", "tool_offset": ":"}
 _PLAIN = (ir.Name, ir.Index, ir.Field)
 
 
-@legalising(sees=("operator :", "function compose", "function offset", "function tool_offset"))
+@legalising(sees=("function offset", "function tool_offset"))
 def places_of_moves(program: ir.Program, context: Context) -> ir.Program:
-    """Frames in front of places and constant shifts are said at the move."""
-    worker = _Places(ShiftFrames(context), unchanged_in(program), may_select_frames(program, modal=True))
+    """Constant shifts are said at the move."""
+    worker = _Places(ShiftFrames(context), unchanged_in(program))
     scopes = ProgramScope(program)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
@@ -43,7 +41,6 @@ def places_of_moves(program: ir.Program, context: Context) -> ir.Program:
 class _Places:
     shifts: ShiftFrames
     unchanged: Unchanged
-    framed: bool  # may moves select frames?
     scope: Scope = field(init=False)
 
     def body(self, body: ir.Body) -> ir.Body:
@@ -52,24 +49,7 @@ class _Places:
     def statement(self, statement: ir.Statement) -> ir.Body:
         if not isinstance(statement, ir.Move):
             return (inside(statement, self.body),)
-        before, move = self.in_frame(statement) if self.framed else ((), statement)
-        return (*before, replace(move, target=self.shifted(move)))
-
-    def in_frame(self, move: ir.Move) -> tuple[ir.Body, ir.Move]:
-        """The move with its place in the frame that it is seen from, and what selects this frame or the world."""
-        places = FramedPlaces(self.scope, self.unchanged, self.has_register)
-        if move.relative == "tool" or places.goes_to_joints(move):
-            return (), move
-        frame, inner = places.of_move(move)
-        return (ir.Assign(ir.System("base"), frame or ir.System("null_frame")),), inner
-
-    def has_register(self, place: ir.Expression) -> bool:
-        """Is it a place with a point or register of its own? One that is put together of numbers has none at a move."""
-        match place:
-            case ir.Builtin(function="offset" | "tool_offset", arguments=(base, *way)):
-                numbers = all(_is_number(constant(one, self.scope, self.unchanged)) for one in way)
-                return len(way) == 3 and numbers and isinstance(base, _PLAIN)
-        return isinstance(place, _PLAIN) or constant(place, self.scope, self.unchanged) is not None
+        return (replace(statement, target=self.shifted(statement)),)
 
     def shifted(self, move: ir.Move) -> ir.Expression:
         """The target with a constant shift of it in data of its own, as the register that the move names."""
