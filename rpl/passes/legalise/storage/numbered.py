@@ -19,9 +19,9 @@ from rpl.passes.legalise.control.labels import structure_to_labels
 from rpl.passes.legalise.control.parameters import ARGUMENTS
 from rpl.passes.legalise.facts.entries import INITIALISE, moving_entries
 from rpl.passes.legalise.facts.liveness import Names
-from rpl.passes.legalise.facts.usage import each_expression, each_statement
+from rpl.passes.legalise.facts.usage import each_expression, each_statement, usage_of
 from rpl.passes.legalise.facts.values.firstreads import read_first
-from rpl.passes.legalise.kinds import kinds_in
+from rpl.passes.legalise.kinds import kinds_in, walk_for
 from rpl.passes.legalise.rewriting.operands import is_operand
 from rpl.passes.legalise.rewriting.startdata import assigned_at_start, entries_of
 from rpl.passes.legalise.rewriting.walk import Rewriter, unchanged_in
@@ -518,7 +518,9 @@ def _begins(program: ir.Program) -> Names:
     named = frozenset(one.name.lower() for one in declared if isinstance(one, ir.Variable))
     if kinds_in(program) & _BESIDE or any(task.kind != "motion" for task in program.tasks):
         return named
-    return read_first(program, named, entries_of(program) | moving_entries(program))
+    used = named & {node.id.lower() for node in walk_for({"Name"}, *program.modules) if isinstance(node, ir.Name)}
+    changing = used & usage_of(program).assigned  # what nothing sets is read as it begins
+    return (used - changing) | read_first(program, changing, entries_of(program) | moving_entries(program))
 
 
 def _facts(program: ir.Program, scopes: ProgramScope) -> Facts:

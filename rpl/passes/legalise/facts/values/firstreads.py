@@ -17,11 +17,13 @@ from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.facts.effects import blocks, children, everything, statements_in
 from rpl.passes.legalise.facts.liveness import Liveness, Names
 from rpl.passes.legalise.facts.usage import called_below, doing, usage_of
+from rpl.passes.legalise.kinds import holds_none
 
 __all__ = ["read_first"]
 
 _NONE: Names = frozenset()
 _UP, _DOWN = ir.BoolLiteral(True), ir.BoolLiteral(False)
+_CALLING = frozenset(("CallRoutine", "Call", "ConnectInterrupt", "TaskControl", "OnError"))
 _SIMPLE = (ir.Move, ir.Assign, ir.Message, ir.Wait, ir.WaitUntil, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop)
 
 
@@ -41,15 +43,15 @@ def read_first(program: ir.Program, names: Names, entries: Iterable[str], beside
     routines = [routine for module in program.modules for routine in module.routines]
     left, guarded = _left(program), _guarded(program, alone)
     calls = {routine.name.lower(): _Passage() for routine in routines}
-    changed = True
-    while changed:
+    waiting, calling = routines, [one for one in routines if not holds_none(one, _CALLING)]
+    while waiting:
         before = dict(calls)
-        for routine in routines:
+        for routine in waiting:
             key, hidden = routine.name.lower(), _own(routine)
             reads = _Reads(routine, alone - hidden, _NONE, calls, guarded).start
             keeps = alone if key in left else _Reads(routine, alone - hidden, alone - hidden, calls, guarded).start
             calls[key] = _Passage(calls[key].reads | reads, calls[key].keeps | keeps | (alone & hidden))
-        changed = calls != before
+        waiting = calling if calls != before else []  # the others know all that they ask
     found = (names - alone).union(*(calls[one.lower()].reads for one in entries if one.lower() in calls))
     running = called_below(program, {one.lower() for one in beside})
     for routine in routines:
@@ -73,9 +75,14 @@ class _Reads(Liveness):
         super().__init__(routine, names, after)
 
     def read(self, *parts: ir.Expression | None) -> Names:
-        found = super().read(*parts)
-        asked = [one for part in parts if part is not None for one in everything(part) if isinstance(one, ir.Call)]
-        return found.union(*(self.reads_of(one.name) for one in asked))
+        found = _NONE
+        for node in (one for part in parts if part is not None for one in everything(part)):
+            match node:
+                case ir.Name(id=name):
+                    found |= self.names & {name.lower()}
+                case ir.Call(name=name):
+                    found |= self.reads_of(name)
+        return found
 
     def reads_of(self, name: str) -> Names:
         passage = self.calls.get(name.lower())
