@@ -16,6 +16,7 @@ from rpl import ir
 from rpl.passes.capabilities import Postures
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.worldframe import may_select_frames
+from rpl.passes.legalise.kinds import kinds_in
 from rpl.passes.legalise.rewriting.editing import edit_bodies
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -26,6 +27,7 @@ from rpl.passes.typing import type_of
 
 __all__ = ["places_as_targets"]
 
+_PRODUCTS = frozenset(("operator :", "function compose"))
 _SHIFTS = ("offset", "tool_offset")
 _Key = int  # identity of a declaration, or of a function for what it returns
 
@@ -35,6 +37,8 @@ def places_as_targets(program: ir.Program, context: Context) -> ir.Program:
     """Only where the program tells places and poses apart all through."""
     roles = _Roles(program, framed=may_select_frames(program, context.capabilities.settings.modal))
     roles.look()
+    if not roles.places and not (roles.framed and kinds_in(program) & _PRODUCTS):
+        return program
     return _Rewriting(roles, ir.TargetType(context.capabilities.places.notation)).program(program)
 
 
