@@ -38,7 +38,7 @@ from output_text import LAYOUTS, lines_of
 
 FILE = Path(__file__).parent / "idiom_pairs.json"
 LANGUAGES = ("krl", "rapid", "tp", "inform", "urscript", "vplus")
-TASKS = ("carton_stacking", "lathe_tending", "gauge_sorting")
+TASKS = ("carton_stacking", "lathe_tending", "gauge_sorting", "press_loading")
 _COMMENT = {
     "krl": r";(?!\s*(?:END)?FOLD)",
     "rapid": r"[^!\"]*!",
