@@ -10,11 +10,12 @@ from dataclasses import dataclass, field, replace
 
 from rpl import ir
 from rpl.ir.walk import walk
-from rpl.passes.fold import constant_number
+from rpl.passes.fold import Unchanged, constant_number
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.motion.externalaxes import has_external_axes
 from rpl.passes.legalise.rewriting.editing import edit_bodies, edit_each, map_body
 from rpl.passes.legalise.rewriting.headdata import ShiftFrames, with_data
+from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
 from rpl.passes.rewrite import rewrite_bodies
 from rpl.passes.scope import Scope
@@ -31,7 +32,8 @@ _PARTS = ("x", "y", "z")
 @legalising(sees=("function offset", "function tool_offset"))
 def said_shifts(program: ir.Program, context: Context) -> ir.Program:
     """What is neither stays a function."""
-    worker, scopes = _Shifts(context, has_external_axes(program), says_postures(program)), ProgramScope(program)
+    worker = _Shifts(context, has_external_axes(program), says_postures(program), unchanged_in(program))
+    scopes = ProgramScope(program)
 
     def work(module: ir.Module, routine: ir.Routine) -> ir.Routine:
         worker.enter(scopes.routine(module, routine))
@@ -44,12 +46,13 @@ def said_shifts(program: ir.Program, context: Context) -> ir.Program:
 
 @dataclass(slots=True)
 class _Shifts:
-    """`external`, `postures`: do places say external axes, postures? `moved`: the
+    """`external`, `postures`: do places say external axes, postures? `unchanged`: data that nothing sets. `moved`: the
     variables of the present routine for places with other components, by the name of the place."""
 
     context: Context
     external: bool
     postures: bool
+    unchanged: Unchanged
     shifts: ShiftFrames = field(init=False)
     scope: Scope = field(init=False)
     moved: dict[str, ir.Variable] = field(init=False)
@@ -132,7 +135,7 @@ class _Shifts:
             case ir.Builtin(function="offset" | "tool_offset" as way, arguments=(base, *shift)) if isinstance(
                 base, ir.Name
             ) or (way == "tool_offset" and _is_product(base)):
-                numbers = [constant_number(one, self.scope) for one in shift]
+                numbers = [constant_number(one, self.scope, self.unchanged) for one in shift]
                 known = [one for one in numbers if one is not None]
                 if len(known) < len(numbers) or any(known[3:]):
                     return target
