@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from rpl import ir
     from rpl.cell import Cell
     from rpl.emulator.model import RobotModel
+    from rpl.project import ReadProgram
     from rpl.simulation import RunResult
 
 
@@ -96,7 +98,7 @@ def command(
     print_diagnostics(diagnostics, Severity.WARNING)
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
-    model = _robot_in(robot, surroundings, read.program)
+    model = _robot_in(robot or _arm_of(read), surroundings, read.program)
     try:
         with waiting("running"):
             driver = reports.controller
@@ -118,6 +120,18 @@ def command(
     beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
     reports.write(result, read, model, layers, beside)
     return 0 if result.status in ("finished", "stopped") else 1
+
+
+def _arm_of(read: ReadProgram) -> str | None:
+    """The arm that the files of a backup name, which is said; None: they name none, or none of ours, or
+    the package for arms is not installed."""
+    from rpl.inventory.robots import arms_of
+
+    found = next((one for one in arms_of(read) if one.robot), None)
+    if found is None or find_spec("pinocchio") is None:
+        return None
+    say(f"rpl: the arm is {found.robot}: {found.file} calls it {found.called}; --robot names another", err=True)
+    return found.robot
 
 
 def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program) -> RobotModel | None:

@@ -63,3 +63,19 @@ def test_nothing_to_show_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[s
     (tmp_path / "notes.txt").write_text("buy milk")
     assert run(["project", str(tmp_path)]) == 2
     assert "no robot program was found" in capsys.readouterr().err
+
+
+MACHINE = 'DEFDAT $MACHINE PUBLIC\nCHAR $TRAFONAME[32]\n$TRAFONAME[]="#KR6R900SIXX C4SR FLR"\nENDDAT\n'
+
+
+def test_a_run_takes_the_arm_that_the_backup_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "main.src").write_text("DEF main()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\nPTP {A1 10}\nEND\n")
+    assert run(["run", str(tmp_path), "--json"]) == 0
+    without = json.loads(capsys.readouterr().out)
+    (tmp_path / "$machine.dat").write_text(MACHINE)
+    assert run(["run", str(tmp_path), "--json"]) == 0
+    told = capsys.readouterr()
+    assert "the arm is kuka_kr6r900sixx: $machine.dat calls it KR6R900SIXX C4SR FLR" in told.err
+    assert json.loads(told.out)["time_s"] != without["time_s"]
+    assert run(["run", str(tmp_path), "--robot", "kuka_kr16_2", "--json"]) == 0
+    assert "the arm is" not in capsys.readouterr().err
