@@ -9,14 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from rpl import ir
-from rpl.ir.walk import bodies, walk
+from rpl.ir.walk import bodies
 from rpl.passes.capabilities import Parameters
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.control.locals import renamed
 from rpl.passes.legalise.facts.activations import Activations
 from rpl.passes.legalise.facts.effects import statements_in
 from rpl.passes.legalise.facts.mentioned import naming_of_routines
-from rpl.passes.legalise.facts.usage import written_in
+from rpl.passes.legalise.facts.usage import given_beside, given_by_reference, written_in
 from rpl.passes.legalise.facts.values.heldtexts import named_by_texts
 from rpl.passes.legalise.rewriting.editing import edit_all, edit_bodies, map_body
 from rpl.passes.legalise.rewriting.jumps import inside
@@ -27,7 +27,6 @@ from rpl.passes.scope import ProgramScope
 __all__ = ["same_variables"]
 
 _CALLS = frozenset(("CallRoutine",))
-_LENDING = (ir.TaskControl, ir.DeclareInterrupt, ir.Trigger, ir.DefineTrigger, ir.OnError)
 
 
 @legalising(unless=lambda context: context.capabilities.routines.parameters is not Parameters.NONE, sees=_CALLS)
@@ -87,7 +86,8 @@ def _shared(program: ir.Program) -> list[_Shared]:
         ((identity, caller),) = callers.items()
         if not {id(routine), identity} <= alone:
             continue
-        lent, written, scope = _lent(caller, program), written_in(routine), scopes.routine(module, routine)
+        lent = given_by_reference(program, caller) | given_beside(caller)
+        written, scope = written_in(routine), scopes.routine(module, routine)
         for at, parameter in enumerate(routine.parameters):
             variable = _variable_given(caller, [call for _, call in own], routine, at)
             plain = parameter.mode == "value" and not parameter.optional and parameter.name.lower() not in written
@@ -120,26 +120,6 @@ def _variable_given(
     given = {one.name.lower() for one in caller.parameters}
     if found is None or name in given or found.storage != "variable" or found.initial is not None:
         return None
-    return found
-
-
-def _lent(caller: ir.Routine, program: ir.Program) -> set[str]:
-    """Names of the routine that something else may change: given by reference, or to what runs at another time."""
-    modes = {
-        one.name.lower(): [each.mode for each in one.parameters]
-        for module in program.modules
-        for one in module.routines
-    }
-    found: set[str] = set()
-    for node in walk(caller):
-        if isinstance(node, _LENDING):
-            found |= {one.id.lower() for one in walk(node) if isinstance(one, ir.Name)}
-        if isinstance(node, ir.Call | ir.CallRoutine):
-            passed = modes.get(node.name.lower(), [])
-            for number, one in enumerate(node.arguments):
-                by_value = number < len(passed) and not one.name and passed[number] == "value"
-                if not by_value and isinstance(one.value, ir.Name):
-                    found.add(one.value.id.lower())
     return found
 
 

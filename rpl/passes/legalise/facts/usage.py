@@ -17,6 +17,7 @@ from rpl.passes.rewrite import visit_parts
 
 _BY_TEXT = ""  # among names of called routines: any procedure
 _CALLS = frozenset(("Call", "CallRoutine"))
+_BESIDE = frozenset(("TaskControl", "DeclareInterrupt", "Trigger", "DefineTrigger", "OnError"))
 
 
 def each_statement(body: ir.Body, visit: Callable[[ir.Statement], None]) -> None:
@@ -292,6 +293,29 @@ def exposed(program: ir.Program, names: set[str]) -> ir.Program:
 
     modules = tuple(replace(module, routines=tuple(map(visible, module.routines))) for module in program.modules)
     return replace(program, modules=modules)
+
+
+def given_by_reference(program: ir.Program, *roots: object) -> set[str]:
+    """Folded names of variables that calls below these nodes (without any: of the whole program) give as they are, so
+    that the called routine may change them. What no routine of the program takes is given so, too."""
+    modes = {one.name.lower(): [each.mode for each in one.parameters] for one in _routines(program)}
+    found: set[str] = set()
+    for call in walk_for(_CALLS, *(roots or program.modules)):
+        if not isinstance(call, ir.Call | ir.CallRoutine):
+            continue
+        taken = modes.get(call.name.lower(), [])
+        for at, one in enumerate(call.arguments):
+            by_value = at < len(taken) and not one.name and taken[at] == "value"
+            if not by_value and isinstance(one.value, ir.Name):
+                found.add(one.value.id.lower())
+    return found
+
+
+def given_beside(routine: ir.Routine) -> set[str]:
+    """Folded names that a routine gives to what runs at another time: tasks, interrupts, errors and places on the
+    path. They may change at any time."""
+    given = tuple(walk_for(_BESIDE, routine))
+    return {node.id.lower() for node in walk(given) if isinstance(node, ir.Name)} if given else set()
 
 
 def called_names(routines: Iterable[ir.Routine]) -> set[str]:

@@ -23,7 +23,7 @@ def idle_waits(program: ir.Program, context: Context) -> ir.Program:
     if program.tasks or not _BESIDE.isdisjoint(kinds_in(program)):
         return program
     facts = Facts(program)
-    resting = _Still(program, holds=rules_of(context.source).advance.runs_ahead_of == "fly_by")
+    resting = Rests(program, holds=rules_of(context.source).advance.runs_ahead_of == "fly_by")
     resting.solve(sorted({*started(program), *facts.alone, *facts.started}), sorted(facts.several))
 
     def change(node: object) -> object:
@@ -32,19 +32,6 @@ def idle_waits(program: ir.Program, context: Context) -> ir.Program:
         return ir.Nothing(origin=node.origin) if node.origin.comments else ()
 
     return rewrite_for({"WaitForMotion"}, program, change)
-
-
-class _Still(Rests):
-    """`holds`: does the controller hold the task at a move without a corner until it has ended?"""
-
-    def __init__(self, program: ir.Program, holds: bool) -> None:
-        super().__init__(program)
-        self.holds = holds
-
-    def transfer(self, statement: ir.Statement, before: bool) -> bool:
-        if isinstance(statement, ir.Move) and not self.holds:
-            return False
-        return super().transfer(statement, before)
 
 
 __all__ = ["idle_waits"]

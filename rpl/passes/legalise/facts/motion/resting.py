@@ -1,4 +1,5 @@
-"""Where the robot rests: behind a move without a corner, for controllers whose program waits for such a move."""
+"""Where the robot rests: behind what waits for it, and behind a move without a corner, for controllers whose program
+waits for such a move."""
 
 from __future__ import annotations
 
@@ -11,10 +12,12 @@ __all__ = ["Rests"]
 class Rests(Forward[bool]):
     """`rests`: does the robot rest where a statement (by identity) evaluates its own expressions? `before`: does it
     where the program comes to the statement? It does when a program starts. Known behind `solve`, which is told what
-    runs on its own and what runs beside."""
+    runs on its own and what runs beside. `holds`: does the controller hold the program at a move without a corner until
+    it has ended?"""
 
-    def __init__(self, program: ir.Program) -> None:
+    def __init__(self, program: ir.Program, holds: bool = True) -> None:
         super().__init__(program, True, False)
+        self.holds = holds
         self.rests: dict[int, bool] = {}
         self.before: dict[int, bool] = {}
 
@@ -22,7 +25,7 @@ class Rests(Forward[bool]):
         match statement:
             case ir.WaitForMotion():
                 return True
-            case ir.Move(blend=ir.BlendStop(), concurrent=False):
+            case ir.Move(blend=ir.BlendStop(), concurrent=False) if self.holds:
                 return True
             case ir.Move() | ir.MoveExternal() | ir.Spline():
                 return False

@@ -16,7 +16,7 @@ from rpl import ir
 from rpl.ir.walk import bodies, walk
 from rpl.passes.fold import constant_number
 from rpl.passes.legalise.facts.effects import blocks, children, statements_in
-from rpl.passes.legalise.facts.usage import assigned_in, base_name
+from rpl.passes.legalise.facts.usage import assigned_in, base_name, given_beside
 from rpl.passes.scope import Scope
 from rpl.passes.typing import type_of
 
@@ -80,7 +80,7 @@ class _Flow:
         for one in routine.declarations:
             if isinstance(one, ir.Variable) and one.storage == "variable":
                 self.own.add(one.name.lower())
-        self.own -= self.referred | _lent(routine)
+        self.own -= self.referred | given_beside(routine)
         self.unproven: set[int] = set()
 
     def beginning(self) -> Known:
@@ -380,13 +380,6 @@ def _left(body: ir.Body) -> bool:
 def _entered(body: ir.Body) -> bool:
     """May the program jump into the body, past what stands in front of it?"""
     return any(isinstance(one, ir.Label) for one in statements_in(body))
-
-
-def _lent(routine: ir.Routine) -> set[str]:
-    """Names that tasks, interrupts and places on the path get: they may change at any time."""
-    kinds = (ir.TaskControl, ir.DeclareInterrupt, ir.Trigger, ir.DefineTrigger)
-    given = [node for node in walk(routine) if isinstance(node, kinds)]
-    return {node.id.lower() for node in walk(tuple(given)) if isinstance(node, ir.Name)} if given else set()
 
 
 def _assignments(body: ir.Body) -> dict[str, list[ir.Expression | None]]:

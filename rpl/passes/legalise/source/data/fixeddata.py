@@ -13,6 +13,7 @@ from rpl.ir.walk import rewrite, walk
 from rpl.passes.fold import Unchanged, constant
 from rpl.passes.legalise.context import Context, ProgramScope
 from rpl.passes.legalise.facts.saidnumbers import said_number
+from rpl.passes.legalise.facts.usage import given_by_reference
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.walk import unchanged_in
 from rpl.passes.legalise.stages import legalising
@@ -30,7 +31,7 @@ def fixed_data(program: ir.Program, context: Context) -> ir.Program:
     unchanged.assigned |= {
         node.counter.lower() for node in walk_for({"For"}, *program.modules) if isinstance(node, ir.For)
     }
-    unchanged.assigned |= _lent(program)
+    unchanged.assigned |= given_by_reference(program)  # where a target only has copies, the copy comes back
     modules = []
     for module in program.modules:
         scope = scopes.module(module)
@@ -38,24 +39,6 @@ def fixed_data(program: ir.Program, context: Context) -> ir.Program:
         modules.append(changed(module, declarations=declarations))
     done = changed(program, modules=tuple(modules))
     return program if done is program else _with_signals(done, unchanged)
-
-
-def _lent(program: ir.Program) -> set[str]:
-    """Folded names that are given by reference: where a target only has copies, the copy comes back."""
-    modes = {
-        routine.name.lower(): [one.mode for one in routine.parameters]
-        for module in program.modules
-        for routine in module.routines
-    }
-    found: set[str] = set()
-    for node in walk_for({"Call", "CallRoutine"}, *program.modules):
-        if isinstance(node, ir.Call | ir.CallRoutine):
-            given = modes.get(node.name.lower(), [])
-            for at, one in enumerate(node.arguments):
-                by_value = at < len(given) and not one.name and given[at] == "value"
-                if not by_value and isinstance(one.value, ir.Name):
-                    found.add(one.value.id.lower())
-    return found
 
 
 def _declared(one: ir.Declaration, unchanged: Unchanged, scope: Scope, banks: Set[str]) -> ir.Declaration:
