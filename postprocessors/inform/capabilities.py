@@ -90,6 +90,7 @@ CAPABILITIES = Capabilities(
     io=Io(
         waits_at_rest=False,
         wait_timeout=True,
+        wait_answers=False,  # in $B014, two lines more
         shortest_wait_s=0.01,
         last_flag=0,
         widest_group=16,

@@ -87,6 +87,7 @@ CAPABILITIES = Capabilities(
     interrupts=Interrupts(watched=Watched.ALL),
     io=Io(
         wait_timeout=True,
+        wait_answers=False,
         widest_group=32,
         last_flag=tables.FLAGS,
         poll_s=0.002,

@@ -11,14 +11,12 @@ from .dialogs import number_dialogs
 from .framenumbers import frame_numbers
 from .groupsizes import groups_in_sizes
 from .jointways import stand_before_ways
-from .lateflags import asked_by_condition
 from .longconditions import short_conditions
 from .pathpoints import path_points
 from .shiftedpoints import shifted_points
 from .watches import counted_watches
 
 PASSES: tuple[Placed, ...] = (
-    Placed(asked_by_condition, "statements", behind="labels_to_structure"),
     Placed(counted_watches, "io", behind="timers_to_clocks"),
     Placed(groups_in_sizes, "io", behind="shared_groups_to_bits"),
     Placed(again(groups_in_sizes, "some have their numbers by now"), "io", behind="named_numbers"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from rpl.passes.legalise.stages import Placed
 
-from .lateflags import asked_by_condition
 from .lists import gathered_lists
 from .outputlevels import output_levels
 from .partedcorners import parted_corners
@@ -14,7 +13,6 @@ from .references import references_as_copies
 from .taskstarts import stand_before_tasks
 
 PASSES: tuple[Placed, ...] = (
-    Placed(asked_by_condition, "statements", behind="labels_to_structure"),
     Placed(references_as_copies, "statements", behind="split_messages"),
     Placed(parted_corners, "settings", behind="settings_at_moves"),
     Placed(stand_before_tasks, "records", behind="watching"),

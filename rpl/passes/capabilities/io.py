@@ -58,6 +58,10 @@ class Io:
     wait_timeout: bool = False
     """WaitUntil takes a timeout."""
 
+    wait_answers: bool = True
+    """A wait with a timeout says whether it took too long, in a word of its own (else what it waited for is asked once
+    more behind it, as where the answer takes lines of its own or the wait is a loop)."""
+
     waits_at_rest: bool = True
     """Waits say that the robot stands before they begin."""
 
