@@ -1,6 +1,6 @@
 """How a controller moves an arm: the parameters of its time laws and corners, and how sure we are of each.
 
-What no file says is the plain model: constant acceleration, corners that are parabolas. `rpl.controllers` reads and
+What no file says is the plain model: constant acceleration, corners that are parabolas. `rpl.controllerfiles` reads and
 finds the files.
 """
 

@@ -95,7 +95,7 @@ class Simulation(Machine):
         linked: LinkedProgram | None = None,
     ) -> None:
         from rpl.cell import Cell as NoCell
-        from rpl.controllers import controller_named
+        from rpl.controllerfiles import controller_named
         from rpl.linking import link
 
         if max_time_s is not None:

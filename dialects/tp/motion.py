@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from lark import Tree
 
 from rpl import ir
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.reading.pieces import Open
 from rpl.reading.shapes import StatementError, SyntaxTree

@@ -70,7 +70,7 @@ def command(
     robot's base frame). With the PROGRAM that was run it is driven with ever better parameters; without it the straight
     moves of the log tell ramps, accelerations and smoothing. The result is a controller file for --controller of run.
     """
-    from rpl.controllers import as_toml, controller_named
+    from rpl.controllerfiles import as_toml, controller_named
     from rpl.fitting.adjust import fit_alone, fit_with_program
     from rpl.fitting.log import read_log
     from rpl.fitting.parameters import chosen, prepared

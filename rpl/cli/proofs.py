@@ -40,7 +40,7 @@ certificate_option = click.option(
 def programs_of(question: Question) -> list[ReadProgram]:
     """The two programs that are compared, with warnings about them and about the cell on stderr. Raises UsageError for
     a path without one, and before anything is read for an unknown arm or controller."""
-    from rpl.controllers import controller_named
+    from rpl.controllerfiles import controller_named
     from rpl.project import read_program
     from rpl.proof.cellnames import report_unknown_names
     from rpl.proof.prove import load_cell
@@ -65,7 +65,7 @@ def programs_of(question: Question) -> list[ReadProgram]:
 
 def answer(question: Question, programs: Sequence[ReadProgram]) -> ProofResult:
     """The verdict about its programs."""
-    from rpl.controllers import controller_named
+    from rpl.controllerfiles import controller_named
     from rpl.proof.explore import Budget
     from rpl.proof.prove import load_cell, prove_programs
     from rpl.proof.wiring import with_names

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from rpl.cli.output import numbers, robot_named, say, write_file
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.errors import UsageError
 
 if TYPE_CHECKING:

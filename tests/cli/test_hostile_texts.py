@@ -12,7 +12,7 @@ import pytest
 import rpl
 from rpl.cell import parse_cell
 from rpl.cli.main import run
-from rpl.controllers import parse_controller
+from rpl.controllerfiles import parse_controller
 from rpl.errors import RunError, UsageError
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from rpl.cli.main import run as rpl
-from rpl.controllers import controller_named, parse_controller
+from rpl.controllerfiles import controller_named, parse_controller
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.errors import UsageError

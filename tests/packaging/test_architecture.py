@@ -20,7 +20,7 @@ LEVELS = [
     ["sidefiles", "archives"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],
-    ["controllers"],
+    ["controllerfiles"],
     ["registry"],
     ["ir"],
     ["motionmodel", "checks"],

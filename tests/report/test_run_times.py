@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rpl.cli.main import run as rpl_command
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
 from rpl.motionmodel import MotionModel

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.emulator.model import load_robot
 from rpl.motionmodel import MotionModel
 from rpl.report.times import run_times

@@ -4,7 +4,7 @@ normal acceleration, ramp in percent of the rate at which it increases)."""
 import pytest
 from helpers import ABB, rapid
 
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 
 FROM, TO = (
     "MoveL [[400,-200,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;",

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from helpers import ABB, moves, run
 
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.emulator.planner import PlannedMove
 from rpl.runtime.trace import RunResult
 

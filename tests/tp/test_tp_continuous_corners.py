@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from postprocessors.tp.passes.continuouscorners import nearest_percent
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.diagnostics import Diagnostics
 from rpl.project import read_sources
 from rpl.source import source_from_bytes, source_from_text

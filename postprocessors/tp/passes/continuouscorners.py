@@ -11,7 +11,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from rpl import ir
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.motionmodel import MotionModel
 from rpl.passes.legalise.context import Context

@@ -13,7 +13,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 
 from rpl import ir
-from rpl.controllers import controller_named
+from rpl.controllerfiles import controller_named
 from rpl.diagnostics import Severity, code
 from rpl.passes.legalise.context import Context
 from rpl.passes.legalise.facts.motion.cornersizes import written_size

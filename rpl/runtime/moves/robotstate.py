@@ -40,7 +40,7 @@ class RobotState:
 
     def controller_of(self, rules: Rules) -> MotionModel:
         """Who drives moves of that language: the controller chosen for the run, else the language's own."""
-        from rpl.controllers import controller_named
+        from rpl.controllerfiles import controller_named
         from rpl.motionmodel import on_robot
 
         chosen = self.machine.controller or controller_named(rules.name)
