@@ -12,6 +12,7 @@ statements stand for. Every error names the file and the key.
     [[answer]]    answer = 2  [text = "regex"]  [after = 1.0]
     [analog.tp]   "AO[1]" = { numbers = [0, 2000], volts = [0, 10] }     or milliamperes = [4, 20]
     [[vendor]]    match = "regex"  effect = "none|message|time"  [seconds = 1.0]  [value = 5]  [set = [["di3", true]]]
+    [[routine]]   name = "GRIP"  [seconds = 0.5]  [message = "text"]  [value = 5]  [set = [["di3", true]]]
 """
 
 from __future__ import annotations
@@ -76,6 +77,16 @@ class VendorMeaning:
 
 
 @dataclass(frozen=True, slots=True)
+class RoutineMeaning:
+    """What a call of a routine stands for that is not in what was read. `value`: what a function gives."""
+
+    seconds: float = 0.0
+    message: str = ""
+    value: Value = None
+    set: tuple[tuple[str, Value], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Cell:
     """Everything a cell file says."""
 
@@ -91,6 +102,7 @@ class Cell:
     mechanisms: tuple[Mechanism, ...] = ()
     external: tuple[float | None, ...] | None = None
     analog: tuple[AnalogSetting, ...] = ()
+    routines: Mapping[str, RoutineMeaning] = field(default_factory=dict)  # by folded name
 
 
 def read_cell(path: str | Path) -> Cell:
@@ -130,6 +142,7 @@ _TOP = frozenset(
         "answer",
         "answers",
         "vendor",
+        "routine",
         "mechanism",
         "analog",
     )
@@ -181,6 +194,7 @@ class _Reader:
             read_mechanisms(table.get("mechanism", []), self.path, self.lines),
             self.external(table),
             tuple(self.analog(table.get("analog", {}))),
+            dict(self.routine(key, row) for key, row in self.rows(table, "routine")),
         )
 
     def system(self, name: str, value: Value) -> None:
@@ -326,14 +340,25 @@ class _Reader:
         effect = row.get("effect", "none")
         if effect not in ("none", "message", "time"):
             raise self.wrong(f"{key}.effect", f"must be none, message or time, not {effect!r}")
-        pairs = row.get("set", [])
-        if not isinstance(pairs, list) or not all(isinstance(p, list) and len(p) == 2 for p in pairs):
-            raise self.wrong(f"{key}.set", "must be a list of [signal, value] pairs")
         return VendorMeaning(
             self.pattern(key, row, "match"),
             effect,
             self.seconds(key, row, "seconds"),
             self.text(key, row, "message"),
             row.get("value"),
-            tuple((str(signal), value) for signal, value in pairs),
+            self.switched(key, row),
         )
+
+    def routine(self, key: str, row: dict[str, Value]) -> tuple[str, RoutineMeaning]:
+        """The folded name of a routine, and what its calls stand for."""
+        self.known(key, row, ("name",), ("seconds", "message", "value", "set"))
+        name = self.text(key, row, "name")
+        seconds, message = self.seconds(key, row, "seconds"), self.text(key, row, "message")
+        return name.lower(), RoutineMeaning(seconds, message, row.get("value"), self.switched(key, row))
+
+    def switched(self, key: str, row: dict[str, Value]) -> tuple[tuple[str, Value], ...]:
+        """The signals that a row switches, with their values."""
+        pairs = row.get("set", [])
+        if not isinstance(pairs, list) or not all(isinstance(p, list) and len(p) == 2 for p in pairs):
+            raise self.wrong(f"{key}.set", "must be a list of [signal, value] pairs")
+        return tuple((str(signal), value) for signal, value in pairs)

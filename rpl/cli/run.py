@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from rpl.cli.files import force_option, refuse_others
+from rpl.cli.files import force_option, refuse_others, write_files
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
     collector,
@@ -52,6 +52,13 @@ if TYPE_CHECKING:
     "--robot", "robots", multiple=True, metavar="R", help="Arm: a name or a .toml file; again for a second motion task."
 )
 @click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, parts.")
+@click.option(
+    "--init-cell",
+    "new_cell",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="F.toml",
+    help="Write a cell file to be edited, with what the programs ask of the world, and do not run.",
+)
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
 @report_options
@@ -65,6 +72,7 @@ def command(
     dialect: str | None,
     robots: Sequence[str],
     cell: str | None,
+    new_cell: Path | None,
     entry: str | None,
     trace: Path | None,
     plot: Path | None,
@@ -88,23 +96,21 @@ def command(
 
     robots_exist(*robots)
     robot, further = robots[0] if robots else None, robots[1:]
-    if trace is not None and plot is not None and trace.resolve() == plot.resolve():
-        raise UsageError(f"--trace and --plot both name {trace}: give each a file")
-    refuse_others([path for path in (trace, plot) if path is not None])
+    _can_be_written(trace, plot)
     limits = limits_of(max_time, max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     surroundings, diagnostics = load_cell(cell), collector()
     read = read_paths(paths, dialect, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
+    if new_cell is not None:
+        return _init_cell(new_cell, read, diagnostics)
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
     model = _robot_in(robot or _arm_of(read), surroundings, read.program)
     try:
         with waiting("running"):
-            driver = reports.controller
-            result = run_program(
-                read.program, model, surroundings, entry, limits=limits, controller=driver, further=further
-            )
+            program, driver = read.program, reports.controller
+            result = run_program(program, model, surroundings, entry, None, None, None, limits, driver, further)
     except RunInterrupted as stopped:
         return _interrupted(stopped, trace)
     _remark(result, model)
@@ -120,6 +126,23 @@ def command(
     beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
     reports.write(result, read, model, layers, beside)
     return 0 if result.status in ("finished", "stopped") else 1
+
+
+def _can_be_written(trace: Path | None, plot: Path | None) -> None:
+    """Raises UsageError for files that would be refused at the end of a long run."""
+    if trace is not None and plot is not None and trace.resolve() == plot.resolve():
+        raise UsageError(f"--trace and --plot both name {trace}: give each a file")
+    refuse_others([path for path in (trace, plot) if path is not None])
+
+
+def _init_cell(path: Path, read: ReadProgram, diagnostics: Diagnostics) -> int:
+    """Write a cell file for the project; one that is there stays, unless --force says otherwise."""
+    from rpl.inventory.contents import contents
+    from rpl.inventory.newcell import new_cell
+
+    write_files({path: new_cell(read, contents(read, diagnostics)).encode("utf-8")})
+    say(f"wrote {path}")
+    return 0
 
 
 def _arm_of(read: ReadProgram) -> str | None:

@@ -12,6 +12,7 @@ from rpl.linking.expressions import Compiler, Place
 from rpl.linking.flatten import has_call
 from rpl.linking.linker import Fill, Linker, Plan
 from rpl.linking.places import reference
+from rpl.runtime import answers
 from rpl.runtime.code import SWITCHED, Code, Frame, Instruction, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.values import SignalRef, Value
@@ -40,7 +41,7 @@ class Calls:
         routine = self.linker.linked.routine(self.compiler.scope, name)
         if routine is None:
             kind = "unknown_function" if result is not None else "unknown_routine"
-            self.linker.assembler.emit(_missing(kind, name))
+            self.linker.assembler.emit(_missing(kind, name, result))
             return
         place_arguments = self._flat(routine, arguments)
         vendor = _vendor_body(routine)
@@ -221,12 +222,22 @@ def _vendor_body(routine: ir.Routine) -> ir.Vendor | None:
     return None
 
 
-def _missing(kind: str, name: str) -> Make:
-    def make(here: int, next: int) -> Instruction:
-        def fail(f: Values) -> int:
-            raise ProgramError(kind, f"the routine {name} is not in what was read")
+def _missing(kind: str, name: str, result: int | None) -> Make:
+    """A call of what is not there: what the cell file says of it, else a fault. Its arguments are not looked at."""
 
-        return fail
+    def make(here: int, next: int) -> Instruction:
+        def stand_in(f: Values) -> int:
+            task = f[0]
+            meaning = answers.unknown_routine(task.machine, task, name, task.frame.code.origin(here))
+            if meaning is None or (result is not None and meaning.value is None):
+                what = "is not in what was read" if meaning is None else "gives no value in the cell file"
+                raise ProgramError(kind, f"the routine {name} {what} (see [[routine]] of a cell file)")
+            if result is not None:
+                f[result] = meaning.value
+            done: int = task.sleep(meaning.seconds, here, next)
+            return done
+
+        return stand_in
 
     return make
 

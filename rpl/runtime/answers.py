@@ -13,7 +13,7 @@ from rpl.runtime.waits import Wait
 from rpl.source import Origin
 
 if TYPE_CHECKING:
-    from rpl.cell import Answer
+    from rpl.cell import Answer, RoutineMeaning
     from rpl.runtime.ports import Machine
 
 
@@ -91,6 +91,17 @@ def vendor(machine: Machine, task: Task, text: str, effect: str, origin: Origin)
     if effect == "message":
         machine.message(task, "vendor", text, origin)
     return 0.0
+
+
+def unknown_routine(machine: Machine, task: Task, name: str, origin: Origin) -> RoutineMeaning | None:
+    """What the cell file says of a routine that is not in what was read; its message and its signals are given."""
+    meaning = machine.cell.routines.get(name.lower())
+    if meaning is not None:
+        if meaning.message:
+            machine.message(task, "routine", meaning.message, origin)
+        for signal, value in meaning.set:
+            machine.set_input(signal, value)
+    return meaning
 
 
 def vendor_value(machine: Machine, text: str) -> Value:

@@ -79,3 +79,26 @@ def test_a_run_takes_the_arm_that_the_backup_names(tmp_path: Path, capsys: pytes
     assert json.loads(told.out)["time_s"] != without["time_s"]
     assert run(["run", str(tmp_path), "--robot", "kuka_kr16_2", "--json"]) == 0
     assert "the arm is" not in capsys.readouterr().err
+
+
+def test_a_cell_file_with_what_the_programs_ask_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = "WAIT FOR $IN[7]\nLOST(1)\nn=far+1\n$OUT[1]=TRUE"
+    (tmp_path / "main.src").write_text(f"DEF main()\nDECL INT n\n{lines}\nEND\n")
+    cell = tmp_path / "cell.toml"
+    assert run(["run", str(tmp_path), "--init-cell", str(cell)]) == 0
+    text = cell.read_text("utf-8")
+    assert '# read by main\n# [[input]]\n# time = 0.0\n# signal = "$IN[7]"\n# value = true\n' in text
+    assert '# called at main.src:4\n[[routine]]\nname = "LOST"\nseconds = 0.0\n' in text
+    assert '[variables]\n# "far" = 0  # asked for at main.src:5\n' in text
+    capsys.readouterr()
+    assert run(["run", str(tmp_path), "--cell", str(cell), "--json"]) == 1  # it waits for the input, as it is
+    assert json.loads(capsys.readouterr().out)["status"] == "deadlock"
+    edited = (
+        text.replace("# [[input]]\n# time", "[[input]]\ntime")
+        .replace("# signal", "signal")
+        .replace("# value = t", "value = t")
+    )
+    cell.write_text(edited.replace('# "far" = 0', '"far" = 0'))
+    assert run(["run", str(tmp_path), "--cell", str(cell), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["fault"] is not None  # data that nobody declares has no value
+    assert run(["run", str(tmp_path), "--init-cell", str(cell)]) == 2  # edited: it stays

@@ -1,0 +1,89 @@
+"""A cell file for a project that has none: what its programs ask of the world, ready to be edited.
+
+What only people know stands as remarks: when inputs come, what data that nobody declares holds. Routines that are not
+there are stubs that take no time, so that a run goes on behind them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+
+from rpl import ir, registry
+from rpl.inventory.contents import Contents, Missing, SignalUse
+from rpl.project import ReadProgram
+
+_HEAD = """# What the programs ask of the world. Lines behind # are proposals: take the sign away and say what holds.
+# docs/running.md has all that a cell file can say.
+"""
+_INPUTS = ("digital in", "analog in", "group in")
+
+
+def new_cell(read: ReadProgram, found: Contents) -> str:
+    """The text of the file."""
+    parts = [_HEAD, *_inputs(read, found), *_routines(found.missing), *_variables(read, found.missing)]
+    return "\n".join(parts)
+
+
+def _inputs(read: ReadProgram, found: Contents) -> Iterator[str]:
+    """Signals that programs read and none of them sets."""
+    for one in found.signals:
+        if one.readers and not one.writers and one.kind in _INPUTS and one.number != "computed":
+            value = "true" if one.kind == "digital in" else "1"
+            yield (
+                f"# read by {_some(one.readers)}\n# [[input]]\n# time = 0.0\n"
+                f"# signal = {_text(_spelled(read, one))}\n# value = {value}\n"
+            )
+
+
+def _routines(missing: Sequence[Missing]) -> Iterator[str]:
+    for one in missing:
+        if one.kind == "routine":
+            yield (
+                f"# called at {_some(one.places)}\n[[routine]]\nname = {_text(one.name)}\nseconds = 0.0\n"
+                f"# value = 0                # where it is a function\n"
+                f'# set = [["$IN[1]", true]]  # inputs that it switches\n'
+            )
+
+
+def _variables(read: ReadProgram, missing: Sequence[Missing]) -> Iterator[str]:
+    """Data that the controller keeps, and data that nobody declares."""
+    unknown = [f"# {_text(one.name)} = 0  # asked for at {_some(one.places)}" for one in missing if one.kind == "datum"]
+    kept = [
+        f"# {_text(one.name)} = {shown}  # kept between runs"
+        for module in read.reduced.modules
+        for one in module.declarations
+        if isinstance(one, ir.Variable) and one.storage == "persistent" and one.origin.source
+        if (shown := _literal(one.initial)) is not None
+    ]
+    if unknown or kept:
+        yield "\n".join(["[variables]", *unknown, *dict.fromkeys(kept), ""])
+
+
+def _literal(value: ir.Expression | None) -> str | None:
+    """A number, truth value or text as the file has it; None: something else."""
+    match value:
+        case ir.BoolLiteral(value=truth):
+            return "true" if truth else "false"
+        case ir.IntLiteral(value=number) | ir.RealLiteral(value=number):
+            return f"{number}"
+        case ir.TextLiteral(value=text):
+            return _text(text)
+    return None
+
+
+def _spelled(read: ReadProgram, one: SignalUse) -> str:
+    """As the language of the programs calls it."""
+    if one.number.isdigit():
+        return registry.dialect(read.dialects[0]).signal_name(one.kind.replace(" ", "_"), int(one.number))
+    return one.name or one.number
+
+
+def _some(names: Sequence[str]) -> str:
+    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+    return ", ".join(names[:3]) + more
+
+
+def _text(text: str) -> str:
+    """A basic string of TOML, which takes the escapes of JSON."""
+    return json.dumps(text, ensure_ascii=False)
