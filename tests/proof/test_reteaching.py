@@ -305,3 +305,19 @@ def test_amounts_without_teaching_are_refused(
     (tmp_path / "m.mod").write_text(RAPID)
     assert run(["prove", str(tmp_path / "m.mod"), str(tmp_path / "m.mod"), *more]) == 2
     assert "--teach" in capsys.readouterr().err
+
+
+def test_a_point_may_have_any_name_and_a_load_is_no_place() -> None:
+    """A point at the loader was passed by in silence, as if it were the centre of a load."""
+    points = RAPID.replace("pPick", "pLoad").replace("pPlace", "LOAD_PRSS_P1")
+    load = "  PERS loaddata loadPart:=[2,[0,0,50],[1,0,0,0],0,0,0];\n  PROC main()\n    GripLoad loadPart;\n"
+    text = points.replace("  PROC main()\n", load)
+    read = read_sources([source_from_text("M.mod", text)], "rapid", Diagnostics())
+    assert [one.name for one in taught_data(read.program)] == ["tGrip", "wobjJig", "jHome", "pLoad", "LOAD_PRSS_P1"]
+    krl = "DEFDAT main\nDECL LOAD LOAD_DATA[2]\nLOAD_DATA[1]={M 2,CM {X 0,Y 0,Z 50,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\nENDDAT\n"
+    listed = read_sources(
+        [source_from_text("main.src", "DEF main()\n$LOAD=LOAD_DATA[1]\nEND\n"), source_from_text("main.dat", krl)],
+        "krl",
+        Diagnostics(),
+    )
+    assert taught_data(listed.program) == ()

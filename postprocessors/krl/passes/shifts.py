@@ -123,6 +123,12 @@ class _Shifts:
             self.moved[key] = ir.Variable(name, type_of(base, self.scope) or ir.PoseType(), scope="routine")
         return ir.Name(self.moved[key].name)
 
+    def known(self, number: ir.Expression) -> float | None:
+        """Of data that nothing sets and that no controller keeps, so that nobody changes it at the robot."""
+        symbols = [self.scope.value(one.id) for one in walk(number) if isinstance(one, ir.Name)]
+        kept = (one.declaration for one in symbols if one is not None and isinstance(one.declaration, ir.Variable))
+        return constant_number(number, self.scope, None if any(map(_is_kept, kept)) else self.unchanged)
+
     def needs_pose_alone(self, kind: str, shifted: ir.Builtin) -> bool:
         """Does a move there ask for nothing that a product of frames lacks?"""
         if not shifted.arguments or not isinstance(type_of(shifted.arguments[0], self.scope), ir.TargetType):
@@ -135,7 +141,7 @@ class _Shifts:
             case ir.Builtin(function="offset" | "tool_offset" as way, arguments=(base, *shift)) if isinstance(
                 base, ir.Name
             ) or (way == "tool_offset" and _is_product(base)):
-                numbers = [constant_number(one, self.scope, self.unchanged) for one in shift]
+                numbers = [self.known(one) for one in shift]
                 known = [one for one in numbers if one is not None]
                 if len(known) < len(numbers) or any(known[3:]):
                     return target
@@ -143,6 +149,10 @@ class _Shifts:
                 left, right = (frame, base) if way == "offset" else (base, frame)
                 return ir.Binary(":", left, right, origin=target.origin)
         return target
+
+
+def _is_kept(one: ir.Variable) -> bool:
+    return one.storage == "persistent"
 
 
 def _is_product(place: ir.Expression) -> bool:

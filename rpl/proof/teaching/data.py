@@ -132,7 +132,7 @@ class _Finder:
             begun = isinstance(owner, ir.Variable) and self.set[name.lower()] > 0
             if _is_zero(known) and (number or begun or isinstance(type, ir.ArrayType)):
                 continue  # a frame that nobody has filled, or that the program fills
-            if "load" in f"{name}{part}".lower():
+            if _is_of_load(type, part):
                 continue  # where a load has its centre is no place
             word = self._kind(kind, name, known)
             shown = f"{routine}.{name}" if routine else name
@@ -151,6 +151,14 @@ class _Finder:
         if key in self.tools:
             return TOOL
         return FRAME if key in self.frames else POINT
+
+
+def _is_of_load(type: ir.Type, part: str) -> bool:
+    """Is it a part of a load, alone or in a tool? A point may have any name."""
+    while isinstance(type, ir.ArrayType):
+        type = type.element
+    of_record = isinstance(type, ir.NamedType) and "load" in type.name.lower()
+    return isinstance(type, ir.LoadType) or of_record or "load" in part.lower()
 
 
 def _settings(nodes: Sequence[object]) -> tuple[set[str], set[str]]:

@@ -18,14 +18,17 @@ from rpl.passes.capabilities import PlaceRule, Places
 from rpl.passes.legalise.context import Context, rules_of
 from rpl.passes.legalise.facts.inforce import InForce
 from rpl.passes.legalise.facts.usage import usage_of
+from rpl.passes.legalise.facts.values.taughtvalues import WRITTEN
 from rpl.passes.legalise.kinds import walk_for
 from rpl.passes.legalise.rewriting.unreaddata import without_unread
 from rpl.passes.legalise.stages import legalising
+from rpl.source import Origin
 
 __all__ = ["known_shifts"]
 
 _SEEN = ("function inverse", "function element_sum", "function displaced_in_tool")
 _PARTS = ("x", "y", "z")
+NUMBERS = "the way of these moves along the tool or the frame"
 _NOWHERE = ir.System("null_frame")
 # Folded name of a variable -> the shift that it holds; a name as _straight makes it: a place that turns nothing.
 State = Mapping[str, ir.Expression]
@@ -53,7 +56,9 @@ def known_shifts(program: ir.Program, context: Context) -> ir.Program:
         replace(module, routines=tuple(rewrite(routine, moved) for routine in module.routines))
         for module in program.modules
     )
-    return without_unread(replace(program, modules=modules), shifts)
+    for name, origin in moves.written.values():
+        context.diagnostics.report(WRITTEN, origin, what=NUMBERS, names=name)
+    return without_unread(replace(program, modules=modules), shifts | moves.written.keys())
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +112,7 @@ class _Moves(InForce[ir.Expression]):
         super().__init__(program, dict.fromkeys(shifts, _NOWHERE))
         self.shifts, self.can = shifts, can
         self.constant = _constant_ways(program)
+        self.written: dict[str, tuple[str, Origin]] = {}  # ways whose numbers stand in moves, and in the first of them
         self.met: dict[int, tuple[ir.Move, ir.Move | None]] = {}
         self.follow_program()
         self.found = {key: new for key, (_, new) in self.met.items() if new is not None}
@@ -123,17 +129,24 @@ class _Moves(InForce[ir.Expression]):
                 return {**kept, _straight(name): _NOWHERE}
         return kept
 
+    def known(self, name: str, place: ir.Expression) -> tuple[ir.Expression, ...] | None:
+        """The numbers of a way that nothing sets, which are written where it was named."""
+        way = self.constant.get(name.lower())
+        if way is not None:
+            self.written.setdefault(name.lower(), (name, place.origin))
+        return way
+
     def shifted(self, place: ir.Expression, state: State) -> ir.Expression:
         """The place with the ways that are surely along the frame or the tool as numbers."""
         match place:
             case ir.Builtin(function="displaced_in_tool", arguments=(base, ir.Builtin("pose_of", (ir.Name(id=name),)))):
-                way = self.constant.get(name.lower())
+                way = self.known(name, place)
                 moved = self.shifted(base, state)
                 if way is not None:
                     return ir.Builtin("tool_offset", (moved, *way), origin=place.origin)
                 return place if moved is base else replace(place, arguments=(moved, place.arguments[1]))
             case ir.Builtin(function="element_sum", arguments=(base, ir.Name(id=name) as way)):
-                known = self.constant.get(name.lower())
+                known = self.known(name, place)
                 if known is not None:
                     return ir.Builtin("offset", (base, *known), origin=place.origin)
                 if _straight(name.lower()) in state:
