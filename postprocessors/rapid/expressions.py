@@ -405,8 +405,12 @@ def real(literal: ir.RealLiteral, foreign: bool) -> str:
     """The number as it was spelled when that is RAPID, else with nine significant digits. A whole number of another
     language goes without its `.0`: a num is one all the same, and people leave it out (counted in public programs: 80
     of 124,000 whole numbers have it)."""
-    spelling = _ZEROS.sub("", literal.spelling) if foreign else literal.spelling
-    return mark_of(literal) or number(literal.value, spelling)
+    return mark_of(literal) or (foreign_number if foreign else number)(literal.value, literal.spelling)
+
+
+def foreign_number(value: float, spelling: str) -> str:
+    """A number of another language's program, as `real` and `integer` write it."""
+    return number(value, _ZEROS.sub("", spelling))
 
 
 def number(value: float, spelling: str) -> str:

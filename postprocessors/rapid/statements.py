@@ -14,7 +14,7 @@ from rpl.writing.statements import CannotSayError
 from rpl.writing.templates import Macros, TemplateError
 
 from . import motion
-from .expressions import Expressions, number
+from .expressions import Expressions, foreign_number, number
 from .instructions import Instructions
 
 NOT_SAID = code(
@@ -95,7 +95,8 @@ class Statements:
         if isinstance(statement, ir.Rows):
             self.ledger.written(statement)
             quiet = Statements(self.expressions, self.diagnostics, EmissionLedger(), self.layout)
-            return lines_of_rows(statement, quiet.statement, number)
+            spelled = foreign_number if self.expressions.foreign else number
+            return lines_of_rows(statement, quiet.statement, spelled)
         try:
             lines = self.lines(statement)
         except CannotSayError as reason:

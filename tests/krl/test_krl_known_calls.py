@@ -222,8 +222,8 @@ def test_what_a_program_does_not_use_of_the_controllers_data_is_left_out() -> No
     lines, diagnostics = written({"forms.src": source, "forms.dat": DATA, "$config.dat": config})
     (move,) = (line for line in lines if line.startswith("MoveJ"))
     assert move.startswith("MoveJ XP1,v1000,fine,")
-    assert "[0.0,0.0,130.0]" in "".join(lines)
-    assert "[30.0,-20.0,15.0]" in "".join(lines)
+    assert "[0,0,130]" in "".join(lines)
+    assert "[30,-20,15]" in "".join(lines)
     text = "\n".join(lines)
     assert not [name for name in ("FDAT", "OTHERS", "XFAR", "[0.0,20.0,90.0]", "rpl_initialise") if name in text]
     (told,) = (item.as_text() for item in diagnostics if item.code.name == "controller-data-left-out")

@@ -28,7 +28,7 @@ TURNED = "pose_trans(rack, pose_trans(spot, p[0, 0, -BACK, 0, 0, 0.3]))"
         ("rapid", "RelTool(spot,0,0,(-BACK)*1000)"),
         ("tp", "Tool_Offset,PR["),
         ("vplus", "rack:spot"),
-        ("krl", "LIN rpl_tool_offset(spot,"),
+        ("krl", "LIN spot:shift_zm50"),
     ],
 )
 def test_the_place_is_a_taught_one(back: str, target: str, said: str) -> None:

@@ -314,7 +314,8 @@ def test_a_point_may_have_any_name_and_a_load_is_no_place() -> None:
     text = points.replace("  PROC main()\n", load)
     read = read_sources([source_from_text("M.mod", text)], "rapid", Diagnostics())
     assert [one.name for one in taught_data(read.program)] == ["tGrip", "wobjJig", "jHome", "pLoad", "LOAD_PRSS_P1"]
-    krl = "DEFDAT main\nDECL LOAD LOAD_DATA[2]\nLOAD_DATA[1]={M 2,CM {X 0,Y 0,Z 50,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\nENDDAT\n"
+    load = "{M 2,CM {X 0,Y 0,Z 50,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}"
+    krl = f"DEFDAT main\nDECL LOAD LOAD_DATA[2]\nLOAD_DATA[1]={load}\nENDDAT\n"
     listed = read_sources(
         [source_from_text("main.src", "DEF main()\n$LOAD=LOAD_DATA[1]\nEND\n"), source_from_text("main.dat", krl)],
         "krl",

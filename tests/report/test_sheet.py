@@ -97,7 +97,7 @@ def test_every_line_of_source_and_result_is_there(made: tuple[Path, Page, str]) 
     for text in (PROGRAM, DATA):
         assert all(line in shown for line in text.splitlines())
     for path in (folder / "out").rglob("*"):
-        if path.is_file() and path.suffix not in (".toml", ".json"):
+        if path.is_file() and path.suffix not in (".toml", ".json", ".cfg"):
             lines = decode(path.read_bytes())[0].replace("\r\n", "\n").rstrip("\n").split("\n")
             missing = [line for line in lines if line not in shown]
             assert not missing, (path.name, missing)
