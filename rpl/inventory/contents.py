@@ -15,6 +15,7 @@ from typing import get_args
 from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import bodies, walk
+from rpl.passes.legalise.facts.values.heldtexts import named_by_texts
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.passes.typing import UNKNOWN_NAME, UNKNOWN_ROUTINE
 from rpl.project import ReadProgram
@@ -35,7 +36,8 @@ _STATEMENTS = tuple(one for one in get_args(ir.Statement) if one not in (ir.Noth
 @dataclass(frozen=True, slots=True)
 class Program:
     """A routine. kind: procedure, function, trap. `entry`: people can start it, and nothing here calls it. `calls` and
-    `called_by`: routines of the project. `missing`: what it calls that the project has not."""
+    `called_by`: routines of the project; `by_text`: a text that a program holds names it, so that it may be called
+    too. `missing`: what it calls that the project has not."""
 
     name: str
     module: str
@@ -48,6 +50,7 @@ class Program:
     calls: tuple[str, ...] = ()
     called_by: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
+    by_text: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +103,7 @@ class Contents:
     @property
     def unused(self) -> tuple[Program, ...]:
         """Routines that nothing calls and nobody can start as they are: they take arguments or give a value."""
-        return tuple(one for one in self.programs if not one.called_by and not one.entry)
+        return tuple(one for one in self.programs if not (one.called_by or one.by_text or one.entry))
 
     def as_json(self) -> dict[str, object]:
         """The same for machines."""
@@ -190,6 +193,8 @@ class _Looking:
                     self.called(name, routine, scope)
                 case ir.Call(name=name) | ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name):
                     self.called(name, routine, scope)
+                case ir.OnError(routine=str(name)):
+                    self.called(name, routine, scope)
                 case ir.Move() | ir.Rows():
                     moves += len(node) if isinstance(node, ir.Rows) else 1
                 case ir.Assign(target=ir.System(name="tool" | "base" as what), value=ir.Name(id=name)):
@@ -241,11 +246,13 @@ class _Looking:
                     if found is not routine:
                         callers[id(found)][routine.name] = None
         begun = {task.entry.lower() for task in self.program.tasks}
+        texts = named_by_texts(self.program)
         for module in self.program.modules:
             for routine in module.routines:
                 statements, moves = self.counts[id(routine)]
                 starts = routine.kind == "procedure" and all(one.optional for one in routine.parameters)
-                alone = id(routine) not in callers or routine.name.lower() in {_MAIN, *begun}
+                by_text = routine.name.lower() in texts
+                alone = not (id(routine) in callers or by_text) or routine.name.lower() in {_MAIN, *begun}
                 yield Program(
                     routine.name,
                     module.name,
@@ -258,6 +265,7 @@ class _Looking:
                     tuple(one.name for one in self.calls[id(routine)].values()),
                     tuple(callers[id(routine)]),
                     tuple(self.missing[id(routine)]),
+                    by_text,
                 )
 
     def signal_uses(self) -> Iterator[SignalUse]:

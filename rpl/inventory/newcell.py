@@ -11,11 +11,13 @@ from collections.abc import Iterator, Sequence
 
 from rpl import ir, registry
 from rpl.inventory.contents import Contents, Missing, SignalUse
+from rpl.inventory.shown import some
 from rpl.project import ReadProgram
 
 _HEAD = """# What the programs ask of the world. Lines behind # are proposals: take the sign away and say what holds.
 # docs/running.md has all that a cell file can say.
 """
+_MOST = 3  # places or programs that a remark names
 _INPUTS = ("digital in", "analog in", "group in")
 
 
@@ -31,7 +33,7 @@ def _inputs(read: ReadProgram, found: Contents) -> Iterator[str]:
         if one.readers and not one.writers and one.kind in _INPUTS and one.number != "computed":
             value = "true" if one.kind == "digital in" else "1"
             yield (
-                f"# read by {_some(one.readers)}\n# [[input]]\n# time = 0.0\n"
+                f"# read by {some(one.readers, _MOST)}\n# [[input]]\n# time = 0.0\n"
                 f"# signal = {_text(_spelled(read, one))}\n# value = {value}\n"
             )
 
@@ -40,7 +42,7 @@ def _routines(missing: Sequence[Missing]) -> Iterator[str]:
     for one in missing:
         if one.kind == "routine":
             yield (
-                f"# called at {_some(one.places)}\n[[routine]]\nname = {_text(one.name)}\nseconds = 0.0\n"
+                f"# called at {some(one.places, _MOST)}\n[[routine]]\nname = {_text(one.name)}\nseconds = 0.0\n"
                 f"# value = 0                # where it is a function\n"
                 f'# set = [["$IN[1]", true]]  # inputs that it switches\n'
             )
@@ -48,7 +50,9 @@ def _routines(missing: Sequence[Missing]) -> Iterator[str]:
 
 def _variables(read: ReadProgram, missing: Sequence[Missing]) -> Iterator[str]:
     """Data that the controller keeps, and data that nobody declares."""
-    unknown = [f"# {_text(one.name)} = 0  # asked for at {_some(one.places)}" for one in missing if one.kind == "datum"]
+    unknown = [
+        f"# {_text(one.name)} = 0  # asked for at {some(one.places, _MOST)}" for one in missing if one.kind == "datum"
+    ]
     kept = [
         f"# {_text(one.name)} = {shown}  # kept between runs"
         for module in read.reduced.modules
@@ -77,11 +81,6 @@ def _spelled(read: ReadProgram, one: SignalUse) -> str:
     if one.number.isdigit():
         return registry.dialect(read.dialects[0]).signal_name(one.kind.replace(" ", "_"), int(one.number))
     return one.name or one.number
-
-
-def _some(names: Sequence[str]) -> str:
-    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-    return ", ".join(names[:3]) + more
 
 
 def _text(text: str) -> str:

@@ -28,15 +28,15 @@ def lines(found: Contents, arms: Sequence[ArmFound]) -> Iterator[str]:
     yield from (f"task {name}: {entry} ({kind})" for name, entry, kind in found.tasks)
     yield from _section("programs that can be started", _tree(found))
     yield from _section("called by nobody", (_STEP + _head(one) for one in found.unused))
-    missing = [f"{_STEP}{one.kind} {one.name}: {_some(one.places)}" for one in found.missing]
+    missing = [f"{_STEP}{one.kind} {one.name}: {some(one.places)}" for one in found.missing]
     yield from _section("missing", missing)
     signals = [
         f"{_STEP}{' '.join(part for part in (one.kind, one.number, one.name) if part)}: "
-        f"written by {_some(one.writers)}; read by {_some(one.readers)}"
+        f"written by {some(one.writers)}; read by {some(one.readers)}"
         for one in found.signals
     ]
     yield from _section("signals", signals)
-    data = [f"{_STEP}{one.kind} {one.name} ({one.place}): used by {_some(one.used_by)}" for one in found.data]
+    data = [f"{_STEP}{one.kind} {one.name} ({one.place}): used by {some(one.used_by)}" for one in found.data]
     yield from _section("points, frames and tools", data)
 
 
@@ -75,11 +75,13 @@ def _tree(found: Contents) -> Iterator[str]:
 
 def _head(one: Program) -> str:
     moves = f", {counted(one.moves, 'move')}" if one.moves else ""
-    return f"{one.name} ({one.place}; {counted(one.statements, 'statement')}{moves})"
+    text = ", named by a text" if one.by_text else ""
+    return f"{one.name} ({one.place}; {counted(one.statements, 'statement')}{moves}{text})"
 
 
-def _some(names: Sequence[str]) -> str:
+def some(names: Sequence[str], most: int = _MOST_PLACES) -> str:
+    """The first of them, and how many more there are."""
     if not names:
         return "nobody"
-    more = f" and {len(names) - _MOST_PLACES} more" if len(names) > _MOST_PLACES else ""
-    return ", ".join(names[:_MOST_PLACES]) + more
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more

@@ -81,3 +81,14 @@ def test_the_same_for_machines() -> None:
         ("cell.dat", "krl", 0),
         ("cell.src", "krl", 0),
     ]
+
+
+def test_what_a_text_or_an_error_may_call_is_not_unused() -> None:
+    text = (
+        'MODULE m\nPERS string job:="later";\nPROC main()\n%job%;\nENDPROC\nPROC later()\nWaitTime 1;\nENDPROC\n'
+        "PROC never(num n)\nWaitTime n;\nENDPROC\nENDMODULE\n"
+    )
+    contents_found = found({"m.mod": text}, "rapid")
+    assert [one.name for one in contents_found.entries] == ["main"]
+    assert [one.name for one in contents_found.unused] == ["never"]
+    assert [one.name for one in contents_found.programs if one.by_text] == ["later"]
