@@ -6,7 +6,7 @@ does anything here.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import PurePath
@@ -35,9 +35,10 @@ _STATEMENTS = tuple(one for one in get_args(ir.Statement) if one not in (ir.Noth
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """A routine. kind: procedure, function, trap. `entry`: people can start it, and nothing here calls it. `calls` and
-    `called_by`: routines of the project; `by_text`: a text that a program holds names it, so that it may be called
-    too. `missing`: what it calls that the project has not."""
+    """A routine; one whose name others have too is named behind its task and module. kind: procedure, function, trap.
+    `entry`: people can start it, and nothing here calls it. `calls` and `called_by`: routines of the project;
+    `by_text`: a text that a program holds names it, so that it may be called too. `missing`: what it calls that the
+    project has not."""
 
     name: str
     module: str
@@ -171,10 +172,16 @@ class _Looking:
     readings: dict[ir.Signal, dict[str, None]] = field(default_factory=lambda: defaultdict(dict))
     used: dict[int, dict[str, None]] = field(default_factory=lambda: defaultdict(dict))
     named: dict[ir.Signal, str] = field(default_factory=dict)
+    called_as: dict[int, str] = field(default_factory=dict)  # a name that several have, behind task and module
     selected: dict[int, str] = field(default_factory=dict)  # frames that a program selects as tool or base
 
     def __post_init__(self) -> None:
         self.scopes = ProgramScope(self.program)
+        routines = [(module, one) for module in self.program.modules for one in module.routines]
+        times = Counter(one.name.lower() for _, one in routines)
+        for module, one in routines:
+            homes = (module.task, module.name) if times[one.name.lower()] > 1 else ()
+            self.called_as[id(one)] = ".".join(filter(None, (*homes, one.name)))
 
     def look(self) -> None:
         for module in self.program.modules:
@@ -206,7 +213,7 @@ class _Looking:
                 case ir.Pulse() | ir.SetAfter():
                     switched |= self.writes(node.signal, routine, scope)
                 case ir.Signal() if id(node) not in switched:
-                    self.readings[node][routine.name] = None
+                    self.readings[node][self.called_as[id(routine)]] = None
                 case ir.Name(id=name) if id(node) not in switched:
                     self.name(name, routine, scope)
             statements += isinstance(node, _STATEMENTS)
@@ -224,7 +231,7 @@ class _Looking:
         signal = target if isinstance(target, ir.Signal) else _declared_signal(target, scope)
         if signal is None:
             return set()
-        self.written[signal][routine.name] = None
+        self.written[signal][self.called_as[id(routine)]] = None
         return {id(target)}
 
     def name(self, name: str, routine: ir.Routine, scope: Scope) -> None:
@@ -232,9 +239,9 @@ class _Looking:
         if symbol is None:
             return
         if isinstance(symbol.declaration, ir.SignalDeclaration):
-            self.readings[symbol.declaration.signal][routine.name] = None
+            self.readings[symbol.declaration.signal][self.called_as[id(routine)]] = None
         elif not isinstance(symbol.declaration, ir.Parameter):
-            self.used[id(symbol.declaration)][routine.name] = None
+            self.used[id(symbol.declaration)][self.called_as[id(routine)]] = None
 
     # ---- what was found
 
@@ -244,7 +251,7 @@ class _Looking:
             for routine in module.routines:
                 for found in self.calls[id(routine)].values():
                     if found is not routine:
-                        callers[id(found)][routine.name] = None
+                        callers[id(found)][self.called_as[id(routine)]] = None
         begun = {task.entry.lower() for task in self.program.tasks}
         texts = named_by_texts(self.program)
         for module in self.program.modules:
@@ -254,7 +261,7 @@ class _Looking:
                 by_text = routine.name.lower() in texts
                 alone = not (id(routine) in callers or by_text) or routine.name.lower() in {_MAIN, *begun}
                 yield Program(
-                    routine.name,
+                    self.called_as[id(routine)],
                     module.name,
                     place_of(routine.origin),
                     routine.kind,
@@ -262,7 +269,7 @@ class _Looking:
                     starts and alone and statements > 0,
                     statements,
                     moves,
-                    tuple(one.name for one in self.calls[id(routine)].values()),
+                    tuple(self.called_as[id(one)] for one in self.calls[id(routine)].values()),
                     tuple(callers[id(routine)]),
                     tuple(self.missing[id(routine)]),
                     by_text,
@@ -286,7 +293,7 @@ class _Looking:
             scope = self.scopes.module(module)
             yield from self.data_of(module.declarations, scope, "")
             for routine in module.routines:
-                yield from self.data_of(routine.declarations, scope, routine.name)
+                yield from self.data_of(routine.declarations, scope, self.called_as[id(routine)])
 
     def data_of(self, declarations: tuple[ir.Declaration, ...], scope: Scope, routine: str) -> Iterator[Datum]:
         """Points, frames and tools that have a value; those of a `routine` are used in it alone."""

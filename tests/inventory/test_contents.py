@@ -92,3 +92,13 @@ def test_what_a_text_or_an_error_may_call_is_not_unused() -> None:
     assert [one.name for one in contents_found.entries] == ["main"]
     assert [one.name for one in contents_found.unused] == ["never"]
     assert [one.name for one in contents_found.programs if one.by_text] == ["later"]
+
+
+def test_routines_of_one_name_stay_apart() -> None:
+    body = "PROC main()\nnear;\nENDPROC\nLOCAL PROC near()\nSet do1;\nENDPROC\nENDMODULE\n"
+    other = "MODULE b\nPROC second()\nnear;\nENDPROC\nLOCAL PROC near()\nSet do2;\nENDPROC\nENDMODULE\n"
+    contents_found = found({"a.mod": f"MODULE a\n{body}", "b.mod": other}, "rapid")
+    assert {one.name: one.calls for one in contents_found.programs} == {
+        "main": ("a.near",), "a.near": (), "second": ("b.near",), "b.near": (),
+    }  # fmt: skip
+    assert [one.writers for one in contents_found.signals] == [("a.near",), ("b.near",)]
