@@ -31,15 +31,35 @@ UNKNOWN_VARIABLE = code(
     "the cell file gives a value to {name}, which the program does not have{nearest}: the value is not used",
     "write the name as the program or its language does",
 )
+UNUSED_ROUTINE = code(
+    "cell-routine-not-used",
+    Severity.WARNING,
+    "the cell file says what {name} stands for, and {why}: it is not used",
+    "take it out, or write the name as the program calls it",
+)
 _WORD = re.compile(r"[\w$]+")
 _NEAR = 0.5  # how much of a name has to agree to be offered
 
 
 def report_unknown_names(programs: Sequence[ir.Program], cell: Cell | None, diagnostics: Diagnostics) -> None:
-    """A warning at each signal of the cell file that the first program does not have, and at each variable that none
-    has."""
+    """A warning at each signal of the cell file that the first program does not have, at each variable that none has,
+    and at each routine that is there or that none calls."""
     report_unknown_signals(programs[0], cell, diagnostics)
     report_unknown_variables(programs, cell, diagnostics)
+    report_unused_routines(programs, cell, diagnostics)
+
+
+def report_unused_routines(programs: Sequence[ir.Program], cell: Cell | None, diagnostics: Diagnostics) -> None:
+    """A warning at each routine of the cell file whose call it never stands for."""
+    if cell is None or not cell.routines:
+        return
+    there = {routine.name.lower() for program in programs for module in program.modules for routine in module.routines}
+    nodes = (node for program in programs for node in walk(program))
+    called = {node.name.lower() for node in nodes if isinstance(node, ir.CallRoutine | ir.Call)}
+    for name in cell.routines:
+        if name in there or name not in called:
+            why = "the program has that routine" if name in there else "nothing calls it"
+            diagnostics.report(UNUSED_ROUTINE, NOWHERE, name=name, why=why)
 
 
 def report_unknown_signals(program: ir.Program, cell: Cell | None, diagnostics: Diagnostics) -> None:

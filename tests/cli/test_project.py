@@ -102,3 +102,13 @@ def test_a_cell_file_with_what_the_programs_ask_for(tmp_path: Path, capsys: pyte
     assert run(["run", str(tmp_path), "--cell", str(cell), "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["fault"] is not None  # data that nobody declares has no value
     assert run(["run", str(tmp_path), "--init-cell", str(cell)]) == 2  # edited: it stays
+
+
+def test_a_stub_that_is_never_asked_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "main.src").write_text("DEF main()\nLOST()\nOWN()\nEND\nDEF OWN()\n$OUT[1]=TRUE\nEND\n")
+    cell = tmp_path / "cell.toml"
+    cell.write_text("".join(f'[[routine]]\nname = "{name}"\n' for name in ("Lost", "Own", "Lots")))
+    assert run(["run", str(tmp_path / "main.src"), "--cell", str(cell), "--entry", "main", "--verbose"]) == 0
+    told = capsys.readouterr().err
+    assert "own stands for, and the program has that routine" in told
+    assert "lots stands for, and nothing calls it" in told and "lost stands for" not in told
