@@ -37,6 +37,7 @@ COMMANDS = {
     "prove": "Decide by running both whether two programs mean the same.",
     "fk": "Forward kinematics: joints to a pose in a dialect's notation.",
     "ik": "Inverse kinematics: a pose to all joint solutions.",
+    "serve": "Stand in for a robot controller behind its maker's own interfaces.",
     "templates": "List how statements are written, or copy it to be changed.",
     "repl": "Try RPL statements one by one on an emulated robot.",
 }

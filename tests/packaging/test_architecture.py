@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 # Highest first. A room may import its own level and the levels below. The last word is the room `rpl.<word>`.
 LEVELS = [
     ["cli"],
-    ["api"],
+    ["api", "controllers"],
     ["proof", "fitting"],
     ["project", "translation", "simulation", "standing", "report", "inventory", "housestyle"],
     ["sidefiles", "archives"],
@@ -129,6 +129,8 @@ def room_of(name: str) -> str:
 
 
 CORE = [name for name in MODULES if room_of(name) not in ("dialects", "postprocessors", "grammars", "robots", "")]
+# Makers' folders: their programs' language is a fact of theirs.
+MAKERS = {path.parent.name for path in (ROOT / "rpl/controllers").glob("*/__init__.py")} - {"virtual"}
 LANGUAGES = [name for name in MODULES if room_of(name) in ("dialects", "postprocessors")]
 
 
@@ -279,6 +281,8 @@ def test_every_module_says_what_it_is_for(name: str) -> None:
 @pytest.mark.parametrize("name", CORE)
 def test_the_core_names_no_language_in_its_code(name: str) -> None:
     """Names of dialects may stand in comments and docstrings as examples, never in what is executed."""
+    if name.startswith("rpl.controllers.") and name.split(".")[2] in MAKERS:
+        return
     languages = {folder.name for folder in (ROOT / "dialects").iterdir() if folder.is_dir()} - {"__pycache__", "rpl"}
     for word, line in facts(name).words:
         assert word.lower() not in languages, f"{name}:{line} names {word}"
@@ -288,3 +292,14 @@ def test_broad_exceptions_are_caught_nowhere() -> None:
     for name in MODULES:
         for kind, line in facts(name).handlers:
             assert kind not in ("", "Exception", "BaseException"), f"{name}:{line} catches everything"
+
+
+@pytest.mark.parametrize("name", [name for name in CORE if name.startswith("rpl.controllers.")])
+def test_the_rules_of_sending_know_no_maker(name: str) -> None:
+    """A maker's folder uses the rules and the plain ways of carrying files; nothing uses a maker's folder."""
+    plain = {"folder", "ftp", "sftp"}
+    here = name.split(".")[2]
+    for target in imports(name):
+        parts = target.split(".")
+        if parts[1] == "controllers" and len(parts) > 2 and parts[2] in MAKERS - plain:
+            assert parts[2] == here, f"{name} imports {target}"

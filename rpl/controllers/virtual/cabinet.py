@@ -1,0 +1,249 @@
+"""The inside of a virtual controller: files, the program that runs in real or scaled time, mode, drives, signals.
+
+Makers' interfaces stand in front of it and say everything in their words; what happens is here, once. Requests are
+reported with `told`, which keeps the transcript and is where faults come.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from rpl.controllers.virtual.faults import DroppedError, Faults
+from rpl.controllers.virtual.store import NotDoneError, Store
+from rpl.controllers.virtual.transcript import Kind, Transcript
+from rpl.diagnostics import Diagnostic, Diagnostics, Severity
+from rpl.errors import RplError
+from rpl.project import ReadProgram, read_sources
+from rpl.runtime.limits import Limits
+from rpl.runtime.trace import Event
+from rpl.runtime.values import Value
+from rpl.simulation import Simulation
+from rpl.source import source_from_bytes
+
+if TYPE_CHECKING:
+    from rpl.emulator.model import RobotModel
+    from rpl.emulator.rotations import FloatArray
+
+Mode = Literal["manual", "automatic", "remote"]
+Phase = Literal["stopped", "running", "paused"]
+# Nobody ends the run of a controller; the trace is emptied as it is shown (s, entries).
+_ENDLESS = Limits(time_s=1e9, steps=1_000_000, events=100_000_000)
+
+
+@dataclass
+class Cabinet:
+    """dialect: the language of its programs. `store`: its files. `time_scale`: simulated seconds of one real second."""
+
+    vendor: str
+    dialect: str
+    model: RobotModel | None
+    store: Store
+    faults: Faults = field(default_factory=Faults)
+    transcript: Transcript = field(default_factory=Transcript)
+    time_scale: float = 1.0
+    mode: Mode = "remote"
+    motors_on: bool = True
+    emergency_stop: bool = False
+    serial: str = "20260001"
+    password: str = "robot"
+    program: str = ""
+    phase: Phase = "stopped"
+    messages: list[str] = field(default_factory=list)
+    lock: threading.RLock = field(default_factory=threading.RLock, repr=False)
+    requests: int = 0
+    _simulation: Simulation | None = field(default=None, repr=False)
+    _standing: tuple[float, ...] | None = field(default=None, repr=False)
+    _wall_s: float = 0.0
+    _signals: dict[str, Value] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        if self.model is not None:
+            self._standing = tuple(float(value) for value in self.model.home)
+        if self.faults.comes("busy", counted=False):
+            self.phase = "running"
+
+    # ---- what comes from outside
+
+    def told(self, interface: str, kind: Kind, text: str, counts: bool = True) -> None:
+        """A request has come: kept in the transcript; a fault may come with it. Raises DroppedError when the
+        connection is to be lost; call `after` behind carrying it out. `counts` is false for what a client sends by
+        itself in short cycles: faults are counted by what it does."""
+        with self.lock:
+            self.transcript.add(interface, kind, text)
+            if not counts:
+                return
+            self.requests += 1
+            if self.faults.comes("before"):
+                raise DroppedError(False)
+            if self.faults.comes("estop"):
+                self.press_emergency_stop()
+
+    def after(self) -> None:
+        """A request was carried out. Raises DroppedError when the answer is to be lost."""
+        with self.lock:
+            if self.faults.comes("drop"):
+                raise DroppedError(True)
+
+    def login(self, user: str, password: str) -> bool:
+        """Is this one let in? `after` tells a refusal by fault from the right password."""
+        return password == self.password and not self.faults.comes("login")
+
+    def may_write(self, name: str) -> None:
+        """Programs are not replaced while one runs, nor with the emergency stop pressed. Raises NotDoneError."""
+        if self.phase == "running":
+            raise NotDoneError("busy", self.program or "a program")
+
+    # ---- programs
+
+    def check(self, names: Sequence[str]) -> list[Diagnostic]:
+        """What the controller's loader says of these files: errors of the reader, first one first."""
+        return list(self._read(names)[1].of(Severity.ERROR))
+
+    def _read(self, names: Sequence[str]) -> tuple[ReadProgram, Diagnostics]:
+        diagnostics = Diagnostics()
+        sources = [source_from_bytes(name, self.store.kept(name)) for name in names]
+        return read_sources(sources, self.dialect, diagnostics), diagnostics
+
+    def select(self, names: Sequence[str], entry: str | None = None) -> list[Diagnostic]:
+        """Load a program for running, from its beginning; the errors that keep it from that."""
+        with self.lock:
+            read, diagnostics = self._read(names)
+            if diagnostics.has_errors:
+                return list(diagnostics.of(Severity.ERROR))
+            simulation = Simulation(read.program, self.model, None, entry, on_event=self._happened, limits=_ENDLESS)
+            for name, value in self._signals.items():
+                simulation.set_input(name, value)
+            self._stand(simulation)
+            self._simulation = simulation
+            self.program = entry or names[0]
+            self.phase = "stopped"
+            return []
+
+    def _stand(self, simulation: Simulation) -> None:
+        """The robot begins where it stands."""
+        for task in simulation.tasks:
+            robot = task.robot
+            if robot is not None and self._standing is not None and self.model is not None:
+                import numpy as np
+
+                robot.joints = np.array(self._standing)
+                break
+
+    def start(self) -> None:
+        """Run what is selected, from where it is. Raises NotDoneError."""
+        with self.lock:
+            if self.emergency_stop:
+                raise NotDoneError("emergency-stop")
+            if self._simulation is None:
+                raise NotDoneError("missing", "no program is selected")
+            self._wall_s = time.monotonic()
+            self.phase = "running"
+
+    def pause(self) -> None:
+        with self.lock:
+            self.advance()
+            if self.phase == "running":
+                self.phase = "paused"
+
+    def stop(self) -> None:
+        """End the program; it would begin anew."""
+        with self.lock:
+            self.advance()
+            self._keep_standing()
+            self.phase, self._simulation = "stopped", None
+
+    def press_emergency_stop(self) -> None:
+        with self.lock:
+            self.pause()
+            self.emergency_stop, self.motors_on = True, False
+
+    def release_emergency_stop(self) -> None:
+        self.emergency_stop = False
+
+    # ---- time
+
+    def advance(self) -> None:
+        """Let the program run on to the present moment of real time, scaled."""
+        with self.lock:
+            simulation, now = self._simulation, time.monotonic()
+            if self.phase != "running" or simulation is None:
+                return
+            passed, self._wall_s = now - self._wall_s, now
+            try:
+                goes_on = simulation.run_until(simulation.now + passed * self.time_scale)
+            except RplError as error:
+                self.messages.append(str(error))
+                goes_on = False
+            simulation.trace.clear()
+            if not goes_on or simulation.ended:
+                self._ended(simulation)
+
+    def _ended(self, simulation: Simulation) -> None:
+        fault = simulation.end_fault
+        if fault is not None:
+            self.messages.append(f"{fault.code}: {fault.message}")
+        self._keep_standing()
+        self.phase = "stopped"
+
+    def _keep_standing(self) -> None:
+        found = self.joints
+        self._standing = found if found is not None else self._standing
+
+    def _happened(self, event: Event) -> None:
+        if event.kind == "message":
+            self.messages.append(str(event.data.get("text", "")))
+
+    # ---- what is seen
+
+    @property
+    def joints(self) -> tuple[float, ...] | None:
+        """Where the axes are now, in the robot's own units (degrees, mm) and signs; None without a robot."""
+        with self.lock:
+            if self._simulation is not None:
+                for task in self._simulation.tasks:
+                    if task.robot is not None and (found := task.robot.joints_now()) is not None:
+                        return found
+            return self._standing
+
+    @property
+    def flange(self) -> FloatArray | None:
+        """The flange in the robot's base, shape (4, 4), mm."""
+        joints = self.joints
+        return None if joints is None or self.model is None else self.model.forward(joints)
+
+    @property
+    def line(self) -> int:
+        """The line that the program is at; 0 without one."""
+        with self.lock:
+            return self._simulation.where()[1] if self._simulation is not None else 0
+
+    def signal(self, name: str) -> Value:
+        """The value of a signal, by a name or number as its language spells it; None: nobody has set it."""
+        from rpl.runtime.signals import keys_named
+
+        with self.lock:
+            if self._simulation is not None:
+                for key in keys_named(name, self._simulation.linked.alias(name)):
+                    if key in self._simulation.signals:
+                        return self._simulation.signals[key]
+            return self._signals.get(name)
+
+    def set_signal(self, name: str, value: Value) -> None:
+        """Switch a signal from outside; a program that runs sees it."""
+        with self.lock:
+            self.advance()
+            self._signals[name] = value
+            if self._simulation is not None:
+                self._simulation.set_input(name, value)
+
+    def variable(self, name: str) -> Value:
+        """The value of a variable of the selected program. Raises UsageError when there is none."""
+        with self.lock:
+            if self._simulation is None:
+                raise NotDoneError("missing", name)
+            self.advance()
+            return self._simulation.variable(name)
