@@ -84,7 +84,8 @@ class Dialect:
     RULES, the data of its meaning; and where there are any, `prelude` has `prelude()`, its predefined data and system
     routines, `configuration` NOTATION, the flags of the arm's configuration, `loading` LOADER, what its controller
     refuses to load, `standing` has `standing`, what the files of a backup say is on the controller, beside the names
-    that its programs declare, `machine` has `arms`, what they call the arm.
+    that its programs declare, `machine` has `arms`, what they call the arm, and
+    `is_backup`, whether a folder is one.
 
     recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
     companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
@@ -146,6 +147,12 @@ class Dialect:
             "Callable[[Sequence[Source]], Iterable[tuple[str, str]]] | None", _part(self.package, "machine", "arms")
         )
         return [] if told is None else list(told(sources))
+
+    def is_backup(self, names: frozenset[str]) -> bool:
+        """Is a folder a backup of its controller, by what stands in it and in the folders in it? Names in small
+        letters, those of folders with a `/` behind (`rapid/task1/`)."""
+        told = cast("Callable[[frozenset[str]], bool] | None", _part(self.package, "machine", "is_backup"))
+        return told is not None and told(names)
 
 
 @dataclass(frozen=True, slots=True)

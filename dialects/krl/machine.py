@@ -19,3 +19,8 @@ def arms(sources: Sequence[Source]) -> Iterator[tuple[str, str]]:
     for source in sources:
         if source.path.lower().endswith((".dat", ".src")):
             yield from ((found[1].strip(), source.path) for found in _NAME.finditer(source.text) if found[1].strip())
+
+
+def is_backup(names: frozenset[str]) -> bool:
+    """An archive of the controller has `am.ini` beside the folder KRC, and programs in KRC/R1."""
+    return "am.ini" in names or "krc/r1/" in names

@@ -18,3 +18,8 @@ def arms(sources: Sequence[Source]) -> Iterator[tuple[str, str]]:
     for source in sources:
         if source.text.lstrip("\ufeff \t\r\n").upper().startswith("MOC:CFG"):
             yield from ((found[1], source.path) for found in _TYPE.finditer(source.text))
+
+
+def is_backup(names: frozenset[str]) -> bool:
+    """A backup has the folders BACKINFO, HOME, RAPID and SYSPAR."""
+    return "backinfo/" in names or {"rapid/", "syspar/"} <= names

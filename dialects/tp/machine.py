@@ -19,3 +19,9 @@ def arms(sources: Sequence[Source]) -> Iterator[tuple[str, str]]:
     for source in sources:
         if source.path.lower().endswith(".va"):
             yield from ((found[1].strip(), source.path) for found in _MODEL.finditer(source.text) if found[1].strip())
+
+
+def is_backup(names: frozenset[str]) -> bool:
+    """A backup has listings or programs beside what else the controller keeps: dumps and files of its variables."""
+    endings = {name.rpartition(".")[2] for name in names if "/" not in name}
+    return bool(endings & {"ls", "tp"}) and bool(endings & {"va", "sv", "vr", "dg"})

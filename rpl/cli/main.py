@@ -33,6 +33,7 @@ COMMANDS = {
     "project": "Show what a backup holds: programs, calls, signals, points.",
     "translate": "Write programs in another controller's language.",
     "run": "Run a program on an emulated robot.",
+    "batch": "Check, run or translate every project of a plant's archive.",
     "fit": "Adjust the motion parameters of a controller to a recorded log.",
     "prove": "Decide by running both whether two programs mean the same.",
     "fk": "Forward kinematics: joints to a pose in a dialect's notation.",

@@ -217,3 +217,23 @@ def _show(text: str, done: threading.Event) -> None:
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         progress.add_task(text, total=None)
         done.wait()
+
+
+@contextmanager
+def counting(text: str, total: int) -> Iterator[Callable[[int, str], None]]:
+    """Shows on a terminal how many of `total` are done, as the given function is told, with a word about the last."""
+    if not sys.stderr.isatty():
+        yield lambda done, last: None
+        return
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        shown = progress.add_task(text, total=total)
+
+        def tell(done: int, last: str) -> None:
+            progress.update(shown, completed=done, description=f"{text} {escape(printable(last))}")
+
+        yield tell

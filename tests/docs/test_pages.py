@@ -31,7 +31,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 NOT_RUN = "# (not run by the tests:"
 # Blocks that install or run the tests themselves.
-HOW_MANY_NOT_RUN = 3
+HOW_MANY_NOT_RUN = 4
 # Languages of fenced blocks; the first two are run.
 KNOWN = ("sh", "python", "rpl", "toml", "json", "csv", "text")
 # As asked, or with what the exit status says: written with guarded stops, alike and not equal.
@@ -178,7 +178,8 @@ def test_the_programs_that_explain_rpl_run_to_their_end(block: Block) -> None:
 def options() -> set[str]:
     """Every long option of every command."""
     commands = [rpl.get_command(click.Context(rpl), name) for name in COMMANDS]
-    return {word for one in commands if one is not None for param in one.params for word in param.opts if "--" in word}
+    given = [param for one in commands if one is not None for param in one.params]
+    return {word for one in given for word in (*one.opts, *one.secondary_opts) if "--" in word}
 
 
 def test_options_of_the_pages_exist_and_every_option_has_its_place() -> None:

@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 # Highest first. A room may import its own level and the levels below. The last word is the room `rpl.<word>`.
 LEVELS = [
     ["cli"],
-    ["api", "controllers"],
+    ["api", "controllers", "batch"],
     ["proof", "fitting"],
     ["project", "translation", "simulation", "standing", "report", "inventory", "housestyle"],
     ["sidefiles", "archives"],
