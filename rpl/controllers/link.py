@@ -128,4 +128,7 @@ class Link(Protocol):
     def take_in(self, names: Sequence[str]) -> None:
         """Let the controller load files that were written, where it does not by itself; selects and starts nothing."""
 
+    def take_out(self, names: Sequence[str]) -> None:
+        """Let the controller let go of files that it was made to load and that are to be removed again."""
+
     def close(self) -> None: ...

@@ -65,6 +65,12 @@ class Profile:
         """Where the programs are on the controller."""
         return self.path or self.usual_path
 
+    @property
+    def address(self) -> str:
+        """maker://host:port/path."""
+        at = f"{self.host}:{self.port}" if self.port is not None else self.host
+        return f"{self.maker}://{at}{self.folder if self.folder.startswith('/') else '/' + self.folder}"
+
     def option(self, name: str, usual: str) -> str:
         """A key that only this maker has."""
         return self.options.get(name, usual)

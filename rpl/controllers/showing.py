@@ -37,7 +37,10 @@ class Status:
     def lines(self) -> Iterator[str]:
         """The same for people."""
         yield "controller   " + (", ".join(f"{word} {value}" for word, value in self.identity.said().items()) or "-")
-        yield "state        " + ", ".join(_said(word, value) for word, value in self.state.as_json().items())
+        said = self.state.as_json()
+        known = [_said(word, value) for word, value in said.items() if value is not None]
+        unknown = [word.replace("_", " ") for word, value in said.items() if value is None]
+        yield "state        " + ", ".join([*known, f"not said: {', '.join(unknown)}"] if unknown else known)
         if self.joints is not None:
             yield "joints       " + ", ".join(f"{value:.3f}" for value in self.joints)
         if self.xyz_mm is not None:
@@ -51,8 +54,6 @@ class Status:
 
 def _said(word: str, value: object) -> str:
     shown = word.replace("_", " ")
-    if value is None:
-        return f"{shown} not said"
     if isinstance(value, bool):
         return shown if value else f"not {shown}"
     return f"{shown} {', '.join(map(str, value)) or 'none' if isinstance(value, list) else value}"

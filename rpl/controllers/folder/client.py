@@ -102,6 +102,9 @@ class FolderLink:
     def take_in(self, names: Sequence[str]) -> None:
         """The folder is not the controller: somebody carries it there."""
 
+    def take_out(self, names: Sequence[str]) -> None:
+        """As above."""
+
     def close(self) -> None:
         """Nothing is open."""
 
