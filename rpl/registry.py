@@ -20,6 +20,8 @@ from rpl.errors import UsageError
 from rpl.ir.standing import NOTHING, Standing
 from rpl.source import Source
 from rpl.tomlfile import read_toml
+from rpl.trivia import NOTHING as NO_TRIVIA
+from rpl.trivia import Trivia
 from rpl.words import Words
 
 if TYPE_CHECKING:
@@ -84,8 +86,8 @@ class Dialect:
     RULES, the data of its meaning; and where there are any, `prelude` has `prelude()`, its predefined data and system
     routines, `configuration` NOTATION, the flags of the arm's configuration, `loading` LOADER, what its controller
     refuses to load, `standing` has `standing`, what the files of a backup say is on the controller, beside the names
-    that its programs declare, `machine` has `arms`, what they call the arm, and
-    `is_backup`, whether a folder is one.
+    that its programs declare, `machine` has `arms`, what they call the arm, and `is_backup`, whether a folder is one,
+    `trivia` TRIVIA, what of a text says nothing.
 
     recognise(path, text) -> 0..100: how sure the content is of this language (never from the extension alone).
     companions(path): files that belong to a named one where they exist (a data list). signal_name(kind, number): how
@@ -140,6 +142,11 @@ class Dialect:
         """What the files of a backup say is on the controller, beside the names that its programs declare."""
         told = cast("Callable[[Sequence[Source]], Standing] | None", _part(self.package, "standing", "standing"))
         return NOTHING if told is None else told(sources)
+
+    @property
+    def trivia(self) -> Trivia:
+        """What of a program's text says nothing: numbers of lines, dates of headers."""
+        return cast("Trivia | None", _part(self.package, "trivia", "TRIVIA")) or NO_TRIVIA
 
     def arms(self, sources: Sequence[Source]) -> list[tuple[str, str]]:
         """What the files of a backup call the arm, as its maker writes it, each with the path of the file."""
