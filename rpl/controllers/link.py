@@ -129,6 +129,7 @@ class Link(Protocol):
         """Let the controller load files that were written, where it does not by itself; selects and starts nothing."""
 
     def take_out(self, names: Sequence[str]) -> None:
-        """Let the controller let go of files that it was made to load and that are to be removed again."""
+        """Let the controller let go of files that it may have been made to load and that are to be removed again; those
+        that it has not loaded are passed by."""
 
     def close(self) -> None: ...

@@ -204,7 +204,7 @@ def _settle(link: Link, profile: Profile, journal: Journal, forwards: bool, tell
         changed = False
         loaded = journal.step in ("replaced", "taken-in")
         gone = [] if forwards else [item.name for item in journal.items if item.old is None]
-        if gone and loaded:
+        if gone:
             link.take_out(gone)
         for item in journal.items if forwards else reversed(journal.items):
             wanted = journal.new(item) if forwards else journal.old(item)
