@@ -221,6 +221,12 @@ class Cabinet:
         with self.lock:
             return self._simulation.where()[1] if self._simulation is not None else 0
 
+    @property
+    def place(self) -> tuple[str, int]:
+        """The file and the line (1 ...) that the program is at; "" and 0 without one."""
+        with self.lock:
+            return self._simulation.where() if self._simulation is not None else ("", 0)
+
     def signal(self, name: str) -> Value:
         """The value of a signal, by a name or number as its language spells it; None: nobody has set it."""
         from rpl.runtime.signals import keys_named

@@ -52,6 +52,12 @@ class Store:
         clean = name.strip("/")
         return clean.lower() if self.fold else clean
 
+    def fold_names(self) -> None:
+        """From now on capitals are no difference in names; of two that differ by them the later one stays."""
+        with self.lock:
+            self.fold = True
+            self._files = {self._key(name): (name, data) for name, data in self._files.values()}
+
     def names(self) -> list[str]:
         """All of them, in order."""
         with self.lock:
