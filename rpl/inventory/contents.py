@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import PurePath
 from typing import get_args
 
@@ -117,11 +117,16 @@ class Contents:
             "tasks": [{"name": name, "entry": entry, "kind": kind} for name, entry, kind in self.tasks],
             "entries": [one.name for one in self.entries],
             "unused": [one.name for one in self.unused],
-            "programs": [asdict(one) for one in self.programs],
-            "missing": [asdict(one) for one in self.missing],
-            "signals": [asdict(one) for one in self.signals],
-            "data": [asdict(one) for one in self.data],
+            "programs": [_as_json(one) for one in self.programs],
+            "missing": [_as_json(one) for one in self.missing],
+            "signals": [_as_json(one) for one in self.signals],
+            "data": [_as_json(one) for one in self.data],
         }
+
+
+def _as_json(one: Program | Missing | SignalUse | Datum) -> dict[str, object]:
+    """Its fields; that of dataclasses copies every text of them, and a backup has ten thousands of points."""
+    return {each.name: getattr(one, each.name) for each in fields(one)}
 
 
 def contents(read: ReadProgram, diagnostics: Diagnostics) -> Contents:
@@ -174,6 +179,7 @@ class _Looking:
     named: dict[ir.Signal, str] = field(default_factory=dict)
     called_as: dict[int, str] = field(default_factory=dict)  # a name that several have, behind task and module
     selected: dict[int, str] = field(default_factory=dict)  # frames that a program selects as tool or base
+    by_text: bool = False  # is a routine called by a text?
 
     def __post_init__(self) -> None:
         self.scopes = ProgramScope(self.program)
@@ -196,8 +202,10 @@ class _Looking:
         switched: set[int] = set()
         for node in walk(*bodies(routine), routine.declarations):
             match node:
-                case ir.CallRoutine(name=name, dynamic=None):
-                    self.called(name, routine, scope)
+                case ir.CallRoutine(name=name, dynamic=text):
+                    self.by_text |= text is not None
+                    if text is None:
+                        self.called(name, routine, scope)
                 case ir.Call(name=name) | ir.ConnectInterrupt(routine=name) | ir.TaskControl(task=name):
                     self.called(name, routine, scope)
                 case ir.OnError(routine=str(name)):
@@ -253,7 +261,7 @@ class _Looking:
                     if found is not routine:
                         callers[id(found)][self.called_as[id(routine)]] = None
         begun = {task.entry.lower() for task in self.program.tasks}
-        texts = named_by_texts(self.program)
+        texts = named_by_texts(self.program) if self.by_text else set()
         for module in self.program.modules:
             for routine in module.routines:
                 statements, moves = self.counts[id(routine)]
