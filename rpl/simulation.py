@@ -315,7 +315,12 @@ def find_entry(program: ir.Program, linked: LinkedProgram, entry: str | None) ->
     that nobody calls. Raises UsageError with the candidates."""
     wanted = entry or program.entry
     if wanted:
-        found = _foreground(program, linked, wanted) or linked.find_routine(wanted) or _any_case(program, wanted)
+        found = (
+            _foreground(program, linked, wanted)
+            or linked.find_routine(wanted)
+            or _any_case(program, wanted)
+            or _behind_its_module(program, wanted)
+        )
         if found is None:
             raise UsageError(f"there is no routine {wanted}: {_listed(_startable(program))}")
         return found[1]
@@ -360,6 +365,17 @@ def _any_case(program: ir.Program, wanted: str) -> tuple[ir.Module, ir.Routine] 
     """The only routine of that name in capital or small letters, in a language that tells them apart."""
     found = [(m, r) for m in program.modules for r in m.routines if r.name.lower() == wanted.lower()]
     return found[0] if len(found) == 1 else None
+
+
+def _behind_its_module(program: ir.Program, wanted: str) -> tuple[ir.Module, ir.Routine] | None:
+    """The routine that is named behind its module, and that behind its task: `T_ROB1.cell.main`, for names that several
+    routines have."""
+    for module in program.modules:
+        for routine in module.routines:
+            names = (f"{module.name}.{routine.name}", f"{module.task}.{module.name}.{routine.name}")
+            if wanted.lower() in (name.lower() for name in names):
+                return module, routine
+    return None
 
 
 def _starts(routine: ir.Routine) -> bool:

@@ -154,6 +154,7 @@ def _wait_until(statement: ir.WaitUntil, linker: Linker) -> Make:
             first = _standing(in_position, f, here)
             if first is not None:
                 return first
+            f[0].inputs.clear()
             if condition(f):
                 if late is not None:
                     late(f, False)

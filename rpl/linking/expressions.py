@@ -26,13 +26,14 @@ from rpl.linking.operators import (
     single_number,
     whole_product,
 )
+from rpl.linking.signalreads import signal_reader
 from rpl.linking.types import Types
 from rpl.passes.scope import Scope
 from rpl.runtime import answers
 from rpl.runtime.code import Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.functions import neutral, system
-from rpl.runtime.signals import as_port, is_bit_group, key_of, number_from, zero_of
+from rpl.runtime.signals import as_port, number_from
 from rpl.runtime.values import (
     MUTABLE,
     Array,
@@ -408,36 +409,7 @@ class Compiler:
         )
 
     def signal(self, expression: ir.Signal) -> Read:
-        port = self.port(expression)
-        if not isinstance(port, SignalRef):
-            dynamic = port
-
-            def read_dynamic(f: Values) -> Value:
-                task = f[0]
-                task.looked = True
-                return task.machine.read(dynamic(f))
-
-            return read_dynamic
-        if is_bit_group(port):
-            group = port
-
-            def read_group(f: Values) -> Value:
-                task = f[0]
-                task.looked = True
-                return task.machine.read(group)
-
-            return read_group
-        key, kind, zero = key_of(port), port.kind, zero_of(port.kind)
-
-        def read(f: Values) -> Value:
-            task = f[0]
-            task.looked = True
-            value = task.signals.get(key)
-            if value is not None:
-                return value
-            return task.machine.read_unset(key, kind) if key.__class__ is str else zero
-
-        return read
+        return signal_reader(self.port(expression), expression.kind)
 
 
 def _words(expression: ir.Expression) -> str:

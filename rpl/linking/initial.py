@@ -15,6 +15,7 @@ from rpl.runtime.values import (
     PoseValue,
     Record,
     RotationValue,
+    SignalRef,
     TargetValue,
     Value,
     VectorValue,
@@ -38,6 +39,7 @@ class _Loader:
         self.g = machine.globals
         self.signals = machine.signals
         self.looked = self.looked_at_time = False
+        self.inputs: dict[SignalRef, float] = {}
         self.name = "start"
         self.robot = None
 

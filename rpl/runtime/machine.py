@@ -15,6 +15,7 @@ from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
 from rpl.runtime import meetings, tasks
+from rpl.runtime.awaited import awaited, words
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.faults import ProgramError
 from rpl.runtime.interrupts import Interrupt
@@ -542,13 +543,9 @@ class Machine:
 
     def _stuck(self) -> None:
         waiting = [task for task in self.tasks if task.state != ENDED]
-        parts = []
-        for task in waiting:
-            where = task.where()
-            place = f" at {where.file}:{where.line}" if where.source else ""
-            parts.append(f"{task.name} waits for {task.wait.describe() if task.wait else 'nothing'}{place}")
         first = waiting[0] if waiting else self.tasks[0]
-        self.end_fault = Fault("deadlock", "; ".join(parts), first.name, first.where())
+        said = "; ".join(words(self, task) for task in waiting)
+        self.end_fault = Fault("deadlock", said, first.name, first.where())
         self.end("deadlock")
 
     def end(self, status: str) -> None:
@@ -582,6 +579,7 @@ class Machine:
             trace=tuple(self.trace),
             joints=joints,
             waited=tuple(self.waited),
+            awaited=awaited(self),
             reached=Reached(self.linked, {code: bytes(marks) for code, marks in self.marks.items()}),
         )
 

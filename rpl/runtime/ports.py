@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from rpl.runtime.moves.scene import External, Scene
     from rpl.runtime.signals import Key
     from rpl.runtime.trace import Event
-    from rpl.runtime.values import JointsValue, StopWatch, TargetValue, Value
+    from rpl.runtime.values import JointsValue, SignalRef, StopWatch, TargetValue, Value
     from rpl.runtime.waits import Arrival, Wait, Waited
     from rpl.source import Origin
 
@@ -94,6 +94,7 @@ class Machine(Protocol):
     def marks_of(self, code: Code) -> bytearray: ...
     def pauses_at(self, task: Task) -> bool: ...
     def global_value(self, name: str) -> Value: ...
+    def physical_name(self, key: Key, port: SignalRef, task: Task) -> str: ...
     def set_input(self, signal: str, value: Value) -> None: ...
     def event(
         self, kind: str, data: dict[str, Value], task: Task | None, origin: Origin = ..., **more: Any
@@ -111,6 +112,7 @@ class Task(Protocol):
     busy: bool
     looked: bool
     looked_at_time: bool
+    inputs: dict[SignalRef, float]
     error_number: float
     together: frozenset[int]
     state: str

@@ -8,11 +8,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rpl.depth import has_more_depth
+from rpl.runtime.awaited import polled
 from rpl.runtime.code import ATTEND, BLOCKED, SWITCHED, Code, Frame, Handling, Read, Values, Write
 from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
 from rpl.runtime.interrupts import Interrupt, Interrupts
 from rpl.runtime.moves.velocities import let_rest
-from rpl.runtime.values import Value
+from rpl.runtime.values import SignalRef, Value
 from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, Waited, poll_step
 from rpl.source import NOWHERE, Origin
 
@@ -55,6 +56,7 @@ class Task:
         self.aside = 0  # frames of interrupts and triggers: there the program pointer never waits for the main motion
         self.looked = False
         self.looked_at_time = False
+        self.inputs: dict[SignalRef, float] = {}  # looked at since it last began to wait for a condition, and when last
         self.look_ahead = -1
         self.error_number: float = 0
         self.interrupt_number: float = 0
@@ -207,7 +209,7 @@ class Task:
         if machine.has_future() or self.looked_at_time:
             self.sleep_tick(self.frame.counter)
         elif self.looked and self.spent >= machine.limits.steps // 2:
-            machine.deadlock(self, "a signal that nothing changes, in a loop")
+            machine.deadlock(self, polled(machine, self))
         else:
             machine.end_beyond_limits(self)
         self.due = min(self.spent + SPIN, max(machine.limits.steps, self.spent + 1))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
     from rpl.runtime.moves.orders import Payload, Programmed
     from rpl.runtime.reached import Reached
-    from rpl.runtime.waits import Waited
+    from rpl.runtime.waits import Awaited, Waited
 
 KINDS = ("move", "output", "input", "message", "warning", "wait", "call", "fault", "end")
 
@@ -99,9 +99,9 @@ class RunInterrupted(KeyboardInterrupt):
 @dataclass(frozen=True, slots=True)
 class RunResult:
     """How a run ended. status: finished, stopped, fault, deadlock, limit, interrupted. `outputs` are changes in order:
-    time, name of the physical signal, value. `joints` at the end (None without a robot). `waited`: the waits for
-    conditions that ended, met or timed out. `reached`: which statements it came to (see
-    rpl.proof.reach)."""
+    time, name of the physical signal, value. `joints` at the end (None without a robot). `awaited`: the tasks that had
+    not ended. `waited`: the waits for conditions that ended, met or timed out. `reached`: which statements it came to
+    (see rpl.proof.reach)."""
 
     status: str
     time_s: float
@@ -112,7 +112,7 @@ class RunResult:
     fault: Fault | None
     trace: tuple[Event, ...]
     joints: tuple[float, ...] | None = None
-    waiting: tuple[str, ...] = ()
+    awaited: tuple[Awaited, ...] = field(default=(), compare=False)
     waited: tuple[Waited, ...] = ()
     reached: Reached | None = field(default=None, compare=False, repr=False)
 

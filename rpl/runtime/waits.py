@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from rpl.runtime.code import Read, Values, Write
 
 if TYPE_CHECKING:
-    pass
+    from rpl.source import Origin
 
 # Waits whose deadline is a time-out: the error is raised then.
 TIMED_OUT = frozenset(("condition", "answer", "meeting"))
@@ -27,6 +27,19 @@ class Waited(NamedTuple):
     begin: float
     end: float
     timed_out: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Awaited:
+    """A task that had not ended: what it waited for (`kind` as of a Wait, "" when it ran), where, since when (s), the
+    inputs that it looked at (each with the moment, s), and the text of the wait."""
+
+    task: str
+    kind: str
+    origin: Origin
+    since_s: float
+    inputs: tuple[tuple[str, float], ...]
+    subject: str = ""
 
 
 def poll_step(waited_s: float, least_s: float = CYCLE_S) -> float:

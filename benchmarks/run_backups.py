@@ -1,0 +1,351 @@
+"""How far the programs of other people's backups run, as they are: every entry program of every project of a folder.
+
+    python benchmarks/run_backups.py FOLDER... [--jobs N] [--csv F.csv] [--json F.json] [--max-time S] [--seconds S]
+
+Files are grouped into projects (`projects`), each program of a project that nothing in it calls is run from its
+beginning, in a cell in which nothing happens, on the arm that the backup names (without one the moves take no time and
+nothing is out of reach: the table says how many). Nothing is edited, and no cell file is written. How a run ended is
+one of CLASSES; the first ones are what a program can come to without its cell.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import multiprocessing
+import os
+import signal
+import sys
+import time
+import traceback
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path, PurePath
+from types import FrameType
+
+from rpl import registry
+from rpl.depth import at_any_depth
+from rpl.diagnostics import Diagnostics
+from rpl.errors import RplError
+from rpl.inventory.contents import Program, contents
+from rpl.inventory.robots import arms_of
+from rpl.linking import link
+from rpl.linking.program import LinkedProgram
+from rpl.project import ReadProgram, read_program
+from rpl.runtime.limits import DEFAULTS
+from rpl.runtime.trace import RunInterrupted, RunResult
+from rpl.simulation import MAIN, Simulation
+
+# What counts as run: the program came as far as a program comes without its cell.
+COUNTED = ("end", "waits for input", "unknown routine")
+# An endless loop that has been all through is reported beside them and not counted.
+CLASSES = (
+    *COUNTED,
+    "loops",
+    "waits for the operator",
+    "waits for something else",
+    "limit",
+    "unknown data",
+    "unknown function",
+    "unknown statement",
+    "out of reach",
+    "needs an arm",
+    "unreadable",
+    "other fault",
+    "no entry",
+    "refused",
+    "too slow",
+    "crash",
+)
+# Folders of a controller's own backup: what lies beside and below them is one project, however deep.
+_TREES = frozenset(("r1", "krc", "rapid", "steu"))
+# Statements of one run.
+_MOST_STATEMENTS = 500_000
+_IDLE_SHARE = 0.5  # a run whose last move or output lies this share of its time behind polls
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How one entry program ended. `what`: the input, routine or datum; `place` as file:line."""
+
+    project: str
+    language: str
+    entry: str
+    kind: str
+    what: str
+    place: str
+    robot: str
+    time_s: float
+    moves: int
+    statements: int
+
+
+class _TooSlow(KeyboardInterrupt):
+    """The seconds of computing that one program gets are over."""
+
+
+# ---- projects
+
+
+def projects(folder: Path) -> Iterator[tuple[str, list[Path]]]:
+    """The files of each project below a folder: a controller's tree is one, else the files of one folder are. An
+    archive is one by itself."""
+    suffixes = {suffix for name in registry.dialect_names() for suffix in registry.dialect(name).extensions}
+    groups: dict[str, list[Path]] = defaultdict(list)
+    for path in _files(folder):
+        if path.suffix.lower() in suffixes:
+            groups[_home(folder, path)].append(path)
+    yield from sorted(groups.items())
+
+
+def _files(folder: Path) -> list[Path]:
+    if folder.is_file():
+        return [folder]
+    found = [
+        Path(home, name)
+        for home, folders, names in os.walk(folder, followlinks=True)
+        for name in names
+        if not name.startswith(".") and "/." not in home
+    ]
+    return sorted(found)
+
+
+def _home(folder: Path, path: Path) -> str:
+    """The folder of the project that a file belongs to, from `folder` on."""
+    parts = path.relative_to(folder).parts if path != folder else (path.name,)
+    for depth, part in enumerate(parts[:-1]):
+        if part.lower() in _TREES:
+            return str(PurePath(folder.name, *parts[:depth]))
+    return str(PurePath(folder.name, *parts[:-1]))
+
+
+def _is_tree(paths: Sequence[Path]) -> bool:
+    return any(part.lower() in _TREES for path in paths for part in path.parts[:-1])
+
+
+def _versions(read: ReadProgram) -> set[str]:
+    """The files of a folder that are no parts of one program but several: they have modules of one name, or a main
+    routine each."""
+    found: dict[object, set[str]] = defaultdict(set)
+    for module in read.reduced.modules:
+        mains = [one for one in module.routines if one.name.lower() == MAIN]
+        for source in (one.origin.source for one in module.routines):
+            if source is not None:
+                found[module.task, module.dialect, module.name.lower()].add(source.path)
+        found[MAIN] |= {one.origin.source.path for one in mains if one.origin.source is not None}
+    return {path for paths in found.values() if len(paths) > 1 for path in paths}
+
+
+# ---- one project
+
+
+def measure(task: tuple[str, list[Path], float, float]) -> list[Outcome]:
+    """Run every entry program of a project."""
+    name, paths, max_time, seconds = task
+    try:
+        diagnostics = Diagnostics()
+        read = read_program(paths, None, diagnostics)
+        if not read.files:
+            return []
+        alone = _versions(read) if not _is_tree(paths) else set()
+        if alone:
+            others = [path for path in paths if str(path) not in alone]
+            parts = [
+                (f"{name}/{path.name}", [path, *others], max_time, seconds) for path in paths if str(path) in alone
+            ]
+            return [one for part in parts for one in measure(part)]
+        found = contents(read, diagnostics)
+        language = " and ".join(read.dialects)
+        if not found.entries:
+            return [Outcome(name, language, "", "no entry", "", "", "", 0.0, 0, 0)] if found.programs else []
+        robot = next((one.robot for one in arms_of(read) if one.robot), "")
+        linked = at_any_depth(lambda: link(read.program))
+        return [_run(name, read, linked, one, robot, max_time, seconds) for one in found.entries]
+    except RplError as error:
+        return [Outcome(name, "", "", "refused", str(error)[:120], "", "", 0.0, 0, 0)]
+    except Exception:  # noqa: BLE001 (a traceback of ours is what this counts)
+        return [Outcome(name, "", "", "crash", _where_ours(), "", "", 0.0, 0, 0)]
+
+
+def _run(
+    name: str, read: ReadProgram, linked: LinkedProgram, one: Program, robot: str, max_time: float, seconds: float
+) -> Outcome:
+    limits = replace(DEFAULTS, time_s=max_time, statements=_MOST_STATEMENTS)
+    language = _language(read, one)
+    said = Outcome(name, language, one.name, "", "", one.place, robot, 0.0, one.moves, 0)
+
+    def run() -> RunResult:
+        simulation = Simulation(read.program, robot or None, None, one.name, limits=limits, linked=linked)
+        try:
+            simulation.run()
+        except KeyboardInterrupt:
+            raise simulation.interrupted() from None
+        return simulation.result()
+
+    signal.signal(signal.SIGALRM, _end)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        result = at_any_depth(run)
+    except RunInterrupted as stopped:
+        kind, what = _of_limit(stopped.result)
+        return replace(_ended(said, stopped.result), kind=kind if kind != "limit" else "too slow", what=what)
+    except _TooSlow:
+        return replace(said, kind="too slow", what="before it began")
+    except RplError as error:
+        return replace(said, kind="refused", what=str(error)[:120])
+    except Exception:  # noqa: BLE001 (a traceback of ours is what this counts)
+        return replace(said, kind="crash", what=_where_ours())
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+    kind, what = classified(result)
+    return replace(_ended(said, result), kind=kind, what=what)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    raise _TooSlow
+
+
+def _ended(said: Outcome, result: RunResult) -> Outcome:
+    origin = result.fault.origin if result.fault is not None else None
+    place = f"{PurePath(origin.file).name}:{origin.line}" if origin is not None and origin.source else said.place
+    return replace(said, place=place, time_s=result.time_s, moves=result.moves, statements=result.statements)
+
+
+def _language(read: ReadProgram, one: Program) -> str:
+    for module in read.reduced.modules:
+        if module.name == one.module and module.task == one.task:
+            return module.dialect
+    return " and ".join(read.dialects)
+
+
+def _where_ours() -> str:
+    kind, error, trace = sys.exc_info()
+    last = traceback.extract_tb(trace)[-1]
+    return f"{kind.__name__ if kind else ''}: {error} ({PurePath(last.filename).name}:{last.lineno})"[:160]
+
+
+# ---- how it ended
+
+
+def classified(result: RunResult) -> tuple[str, str]:
+    """The class of a run, and what it is about."""
+    fault = result.fault
+    if result.status in ("finished", "stopped"):
+        return "end", result.status
+    assert fault is not None  # every other end has its reason
+    if result.status == "deadlock":
+        return _of_deadlock(result)
+    if result.status == "limit" or fault.code == "no-time":
+        return _of_limit(result)
+    text = fault.message[:120]
+    named = text.partition("routine ")[2].partition(" ")[0]
+    known = {
+        "unknown-routine": ("unknown routine", named),
+        "unknown-function": ("unknown function", named),
+        "no-value": ("unknown data", text),
+        "unknown-data": ("unknown data", text.partition(" ")[0]),
+        "vendor": ("unknown statement", text),
+        "opaque": ("unreadable", text),
+        "unreachable": ("out of reach", text),
+    }
+    return known.get(fault.code, ("other fault", f"{fault.code}: {text}"))
+
+
+def _of_deadlock(result: RunResult) -> tuple[str, str]:
+    """Who waits for what for good."""
+    for one in result.awaited:
+        if one.inputs and one.kind in ("condition", ""):
+            return "waits for input", one.inputs[0][0]
+    if any(one.kind == "answer" for one in result.awaited):
+        return "waits for the operator", next(one.subject for one in result.awaited if one.kind == "answer")
+    return "waits for something else", result.fault.message[:120] if result.fault is not None else ""
+
+
+def _of_limit(result: RunResult) -> tuple[str, str]:
+    """A run without an end: one that polls an input, and has done nothing else for long, waits for it."""
+    done = max((event.t for event in result.trace if event.kind in ("move", "output")), default=0.0)
+    for one in result.awaited:
+        asked = [name for name, moment in one.inputs if moment >= done and moment >= result.time_s * _IDLE_SHARE]
+        if asked and done <= result.time_s * _IDLE_SHARE:
+            return "waits for input", asked[0]
+    text = result.fault.message[:120] if result.fault is not None else ""
+    return "limit", text
+
+
+# ---- the table
+
+
+def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """Counts by class and language, and the share."""
+    languages = sorted({one.language for one in outcomes})
+    counts = Counter((one.kind, one.language) for one in outcomes)
+    width = max((len(name) for name in CLASSES), default=0) + 2
+    yield "".ljust(width) + "".join(name[:9].rjust(10) for name in (*languages, "all"))
+    for kind in CLASSES:
+        row = [counts[kind, language] for language in languages]
+        if any(row):
+            yield kind.ljust(width) + "".join(str(count).rjust(10) for count in (*row, sum(row)))
+    for title, of in (("entries", None), ("counted", COUNTED)):
+        row = [sum(one.language == each and (of is None or one.kind in of) for one in outcomes) for each in languages]
+        yield title.ljust(width) + "".join(str(count).rjust(10) for count in (*row, sum(row)))
+    shares = [share([one for one in outcomes if one.language == each]) for each in languages]
+    yield "share, %".ljust(width) + "".join(f"{one:.1f}".rjust(10) for one in (*shares, share(outcomes)))
+    without = sum(not one.robot for one in outcomes)
+    yield f"{without} of {len(outcomes)} were run without an arm: none is named, or none of ours"
+
+
+def share(outcomes: Sequence[Outcome]) -> float:
+    """Of the entries that count, percent."""
+    return 100.0 * sum(one.kind in COUNTED for one in outcomes) / max(len(outcomes), 1)
+
+
+def causes(outcomes: Iterable[Outcome], top: int) -> Iterator[str]:
+    """What stops programs, by how many it stops."""
+    found = Counter((one.kind, one.what) for one in outcomes if one.kind not in COUNTED)
+    for (kind, what), times in found.most_common(top):
+        yield f"{times:5} {kind}: {what}"
+
+
+def failures(outcomes: Iterable[Outcome]) -> Iterator[str]:
+    for one in outcomes:
+        if one.kind not in COUNTED:
+            yield f"{one.project}: {one.entry}: {one.kind}: {one.what} at {one.place}"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--csv", type=Path)
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--max-time", type=float, default=600.0, help="simulated seconds of a run")
+    parser.add_argument("--seconds", type=float, default=20.0, help="seconds of computing of a run")
+    parser.add_argument("--top", type=int, default=40)
+    options = parser.parse_args()
+    tasks = [
+        (name, paths, options.max_time, options.seconds)
+        for folder in options.folders
+        for name, paths in projects(folder)
+    ]
+    outcomes: list[Outcome] = []
+    begun = time.monotonic()
+    with multiprocessing.get_context("spawn").Pool(options.jobs, maxtasksperchild=8) as pool:
+        for number, done in enumerate(pool.imap(measure, tasks), 1):
+            outcomes += done
+            print(f"{number}/{len(tasks)} projects, {len(outcomes)} programs", end="\r", file=sys.stderr)
+    for line in (*table(outcomes), *causes(outcomes, options.top), *failures(outcomes)):
+        print(line)
+    print(f"{len(tasks)} projects in {time.monotonic() - begun:.0f} s")
+    if options.csv is not None:
+        with options.csv.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, list(Outcome.__dataclass_fields__))
+            writer.writeheader()
+            writer.writerows(asdict(one) for one in outcomes)
+    if options.json is not None:
+        options.json.write_text(json.dumps([asdict(one) for one in outcomes], indent=1, ensure_ascii=False), "utf-8")
+
+
+if __name__ == "__main__":
+    main()
