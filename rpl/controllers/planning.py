@@ -10,7 +10,7 @@ from rpl.controllers.link import LARGEST_FILE, Identity, Link, NotThereError, St
 from rpl.controllers.profile import Profile
 from rpl.errors import UsageError
 from rpl.showing import counted
-from rpl.source import read_bytes
+from rpl.source import read_bytes, source_from_bytes
 
 # The temporary name of a file while it is written; the digits tell ours from others.
 TEMPORARY = "zzrpl"
@@ -166,13 +166,30 @@ def _stem(name: str) -> str:
 
 
 def changes_of(files: Sequence[Sent], profile: Profile) -> Iterator[str]:
-    """What the transfer would change, line by line."""
+    """What the transfer would change, by what the programs say; line by line where no language of ours is read."""
+    from rpl.comparing import differences
+    from rpl.comparing.shown import Shown, lines
+    from rpl.diagnostics import Diagnostics
+    from rpl.project import read_program
+
+    if not any(one.kind == "changed" for one in files):
+        return
+    both = [one for one in files if one.present is not None]
+    old = read_program([source_from_bytes(one.name, one.present or b"") for one in both], None, Diagnostics())
+    new = read_program([source_from_bytes(one.name, one.data) for one in both], None, Diagnostics())
+    if old.files and new.files and old.dialects == new.dialects:
+        yield from lines(differences(old, new), Shown(lambda text, what: text, True))
+    else:
+        yield from _by_line(both, profile)
+
+
+def _by_line(files: Sequence[Sent], profile: Profile) -> Iterator[str]:
     from difflib import unified_diff
 
     for one in files:
-        if one.kind != "changed" or one.present is None:
-            continue
-        before, after = (data.decode(profile.text_encoding, "replace").splitlines() for data in (one.present, one.data))
+        before, after = (
+            data.decode(profile.text_encoding, "replace").splitlines() for data in (one.present or b"", one.data)
+        )
         yield from unified_diff(before, after, f"there: {one.name}", f"here: {one.path}", lineterm="", n=1)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import PurePosixPath
 
+from rpl import registry
 from rpl.controllers.link import GarbledError
 
 # Parts of a name that no file of a controller may bring to this machine, on whatever system it is written.
@@ -19,6 +20,11 @@ _LONGEST_NAME = 255
 def same_bytes(name: str, sent: bytes, found: bytes) -> bool:
     """The controller keeps files as they were written."""
     return sent == found
+
+
+def known_programs() -> tuple[str, ...]:
+    """Patterns of the files of all languages, for a way of carrying files that belongs to no maker."""
+    return tuple(f"*{end}" for name in registry.dialect_names() for end in registry.dialect(name).extensions)
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,7 +47,7 @@ def test_a_profile_says_everything(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('[controllers.a]\nhost = "x"\n', "rpl.toml: vendor: which maker's"),
+        ('[controllers.a]\nhost = "x"\n', "rpl.toml:1: vendor: which maker's"),
         ('[controllers.a]\nvendor = "foldr"\n', "did you mean folder"),
         (
             '[controllers.a]\nvendor = "folder"\npassword = "x"\n',

@@ -1,6 +1,6 @@
 """A folder that is carried to the controller, or a share of it that this machine has: `folder:///mnt/robot`."""
 
-from rpl.controllers.rules import SendingRules
+from rpl.controllers.rules import SendingRules, known_programs
 from rpl.controllers.vendors import Vendor
 
 VENDOR = Vendor(
@@ -8,5 +8,5 @@ VENDOR = Vendor(
     title="a folder (transfer folder, mounted share, USB stick)",
     ports={},
     path="",
-    rules=SendingRules(programs=("*",)),
+    rules=SendingRules(programs=known_programs()),
 )
