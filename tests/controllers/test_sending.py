@@ -10,13 +10,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from failing import Controller, FailingLink, Killed, profile_in
 
 from rpl.controllers import journal as journals
 from rpl.controllers.journal import UnfinishedError
 from rpl.controllers.planning import is_temporary, plan
 from rpl.controllers.profile import Profile
 from rpl.controllers.sending import NotSentError, Outcome, finish, send
+from tests.controllers.failing import Controller, FailingLink, Killed, profile_in
 
 OLD = {"a.src": b"old a\n", "a.dat": b"old a data\n", "other.src": b"other\n", "other.dat": b"o\n"}
 NEW = {"a.src": b"new a\n", "a.dat": b"new a data\n", "b.src": b"b\n", "b.dat": b"b data\n"}
@@ -195,8 +195,8 @@ def test_every_transfer_is_in_the_log_with_hashes(tmp_path: Path) -> None:
 KILLED_AT = """
 import os, sys
 from pathlib import Path
-sys.path[:0] = [{tests!r}]
-from failing import profile_in
+sys.path[:0] = [{root!r}]
+from tests.controllers.failing import profile_in
 from rpl.controllers.folder.client import FolderLink
 from rpl.controllers.planning import plan
 from rpl.controllers.sending import send
@@ -223,7 +223,7 @@ def test_a_process_that_is_killed_leaves_what_another_can_finish(tmp_path: Path)
         for name, data in OLD.items():
             (there / name).write_bytes(data)
         script = KILLED_AT.format(
-            tests=str(Path(__file__).parent), number=number, there=str(there), state=str(state), folder=str(folder)
+            root=str(Path(__file__).parents[2]), number=number, there=str(there), state=str(state), folder=str(folder)
         )
         ended = subprocess.run([sys.executable, "-c", script], env={**os.environ}, check=False)
         assert ended.returncode == 9
