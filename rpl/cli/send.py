@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 @click.argument("arguments", nargs=-1, required=True, metavar="DIR NAME|URL")
 @click.option("--write", is_flag=True, help="Write; else it is only said what would be written.")
 @click.option("--resume", is_flag=True, help="Finish a transfer that was broken off: bring the new programs.")
-@click.option("--roll-back", is_flag=True, help="Undo a transfer that was broken off: bring the old programs back.")
+@click.option("--roll-back", is_flag=True, help="Bring back what a broken off transfer, or the last one, replaced.")
 @click.option("--at-rest", is_flag=True, help="I have looked: it stands, where the controller does not say so.")
 @click.option("--prove", "origin", metavar="PATH", help="Send only what is proved equal to this program.")
 @click.option("--accept-alike", is_flag=True, help="With --prove: the verdict alike is enough.")
@@ -125,12 +125,15 @@ def _told(profile: Profile, outcome: Outcome, planned: Plan | None, as_json: boo
 
 
 def _finish(profile: Profile, forwards: bool, as_json: bool) -> int:
-    from rpl.controllers.journal import unfinished
+    from rpl.controllers.journal import last_done, unfinished
     from rpl.controllers.sending import finish
 
     journal = unfinished(profile.state_folder, profile.name)
+    if journal is None and not forwards:
+        journal = last_done(profile.state_folder, profile.name)
     if journal is None:
-        raise UsageError(f"no transfer to {profile.name} is unfinished ({profile.state_folder})")
+        what = "is unfinished" if forwards else "can be rolled back"
+        raise UsageError(f"no transfer to {profile.name} {what} ({profile.state_folder})")
     outcome = finish(connect, profile, journal, forwards, lambda text: say(f"rpl: {text}", err=True))
     return _told(profile, outcome, None, as_json)
 

@@ -135,6 +135,15 @@ def unfinished(state: Path, controller: str) -> Journal | None:
     return None
 
 
+def last_done(state: Path, controller: str) -> Journal | None:
+    """The last transfer to this controller, if it was done (and not rolled back since)."""
+    for path in sorted(folder_of(state, controller).glob(f"*/{JOURNAL}"), reverse=True):
+        journal = read_journal(path)
+        if journal.step != "refused":
+            return journal if journal.step == "done" else None
+    return None
+
+
 def refuse_unfinished(state: Path, controller: str) -> None:
     """Raises UnfinishedError: what an interrupted transfer left is settled first."""
     journal = unfinished(state, controller)

@@ -70,8 +70,9 @@ def send(link: Link, connect: Connect, profile: Profile, planned: Plan, tell: To
 
 
 def finish(connect: Connect, profile: Profile, journal: Journal, forwards: bool, tell: Told = silent) -> Outcome:
-    """Take up a transfer that was broken off: bring the new programs (`forwards`) or the old ones back. Raises
-    NotSentError when it fails again; nothing is lost then, and it can be tried again."""
+    """Take up a transfer that was broken off: bring the new programs (`forwards`) or the old ones back; or undo one
+    that was done. Raises NotSentError when it fails again, or when somebody has changed since what was sent; nothing is
+    lost then, and it can be tried again."""
     with journals.only_one(profile.state_folder, profile.name):
         link = connect(profile)
         try:
@@ -79,9 +80,13 @@ def finish(connect: Connect, profile: Profile, journal: Journal, forwards: bool,
             against = in_the_way(link.state(), (), state_is_known=True)
             if against:
                 raise RefusedError("; ".join(against))
+            if journal.is_over:
+                _untouched(link, profile, journal)
+                journal = journal.at("taken-in")
             _settle(link, profile, journal, forwards, tell)
         except LinkError as error:
-            raise NotSentError(f"{error}; the transfer stays unfinished ({journal.folder})") from None
+            stays = "done as it was" if journal.is_over else "unfinished"
+            raise NotSentError(f"{error}; the transfer stays {stays} ({journal.folder})") from None
         finally:
             link.close()
         journal = journal.at("done" if forwards else "rolled-back")
@@ -194,6 +199,15 @@ def _same_controller(link: Link, journal: Journal) -> None:
     found = link.identity().said()
     if found.get("serial") != journal.identity.get("serial") or found.get("model") != journal.identity.get("model"):
         raise OtherControllerError(f"another controller answers: {found}, and the transfer was to {journal.identity}")
+
+
+def _untouched(link: Link, profile: Profile, journal: Journal) -> None:
+    """A transfer is undone only while the controller holds what it brought."""
+    for item in journal.items:
+        if not _holds(link, profile, item.name, journal.new(item)):
+            raise RefusedError(
+                f"{item.name} has been changed on the controller since it was sent: fetch and compare it"
+            )
 
 
 def _settle(link: Link, profile: Profile, journal: Journal, forwards: bool, tell: Told) -> None:

@@ -181,6 +181,22 @@ def test_data_that_was_altered_in_the_journal_is_not_brought(tmp_path: Path) -> 
         finish(lambda profile: FailingLink(controller), profile, journal, False)
 
 
+def test_a_transfer_that_was_done_is_rolled_back_while_nobody_has_changed_it(tmp_path: Path) -> None:
+    profile, controller = profile_in(tmp_path / "state"), Controller(dict(OLD))
+    transfer(controller, folder_with(tmp_path, NEW), profile)
+    journal = journals.last_done(profile.state_folder, profile.name)
+    assert journal is not None
+    controller.files["b.src"] = b"touched up on the floor\n"
+    with pytest.raises(NotSentError, match="changed on the controller since"):
+        finish(lambda profile: FailingLink(controller), profile, journal, False)
+    assert controller.files["b.src"] == b"touched up on the floor\n"
+    controller.files["b.src"] = NEW["b.src"]
+    finish(lambda profile: FailingLink(controller), profile, journal, False)
+    assert controller.files == OLD
+    assert controller.loaded == ["a.dat", "a.src"]
+    assert journals.last_done(profile.state_folder, profile.name) is None
+
+
 def test_every_transfer_is_in_the_log_with_hashes(tmp_path: Path) -> None:
     profile = profile_in(tmp_path / "state")
     transfer(Controller(dict(OLD)), folder_with(tmp_path, NEW), profile)
