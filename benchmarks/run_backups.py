@@ -128,34 +128,33 @@ def _is_tree(paths: Sequence[Path]) -> bool:
 def _versions(read: ReadProgram) -> set[str]:
     """The files of a folder that are no parts of one program but several: they have modules of one name, or a main
     routine each."""
-    found: dict[object, set[str]] = defaultdict(set)
+    found: dict[object, dict[int, set[str]]] = defaultdict(dict)
     for module in read.reduced.modules:
-        mains = [one for one in module.routines if one.name.lower() == MAIN]
-        for source in (one.origin.source for one in module.routines):
-            if source is not None:
-                found[module.task, module.dialect, module.name.lower()].add(source.path)
-        found[MAIN] |= {one.origin.source.path for one in mains if one.origin.source is not None}
-    return {path for paths in found.values() if len(paths) > 1 for path in paths}
+        paths = {one.origin.source.path for one in module.routines if one.origin.source is not None}
+        found[module.task, module.dialect, module.name.lower()][id(module)] = paths
+        if any(one.name.lower() == MAIN for one in module.routines):
+            found[MAIN][id(module)] = paths
+    return {path for modules in found.values() if len(modules) > 1 for paths in modules.values() for path in paths}
 
 
 # ---- one project
 
 
-def measure(task: tuple[str, list[Path], float, float]) -> list[Outcome]:
-    """Run every entry program of a project."""
+def measure(task: tuple[str, list[Path], float, float], whole: bool = False) -> list[Outcome]:
+    """Run every entry program of a project. `whole`: it is one, whatever its files are called."""
     name, paths, max_time, seconds = task
     try:
         diagnostics = Diagnostics()
         read = read_program(paths, None, diagnostics)
         if not read.files:
             return []
-        alone = _versions(read) if not _is_tree(paths) else set()
+        alone = set() if whole or _is_tree(paths) else _versions(read)
         if alone:
             others = [path for path in paths if str(path) not in alone]
             parts = [
                 (f"{name}/{path.name}", [path, *others], max_time, seconds) for path in paths if str(path) in alone
             ]
-            return [one for part in parts for one in measure(part)]
+            return [one for part in parts for one in measure(part, True)]
         found = contents(read, diagnostics)
         language = " and ".join(read.dialects)
         if not found.entries:
@@ -314,6 +313,20 @@ def failures(outcomes: Iterable[Outcome]) -> Iterator[str]:
             yield f"{one.project}: {one.entry}: {one.kind}: {one.what} at {one.place}"
 
 
+class _Rows:
+    """The CSV file, whose rows are there as soon as a project is done."""
+
+    def __init__(self, path: Path | None) -> None:
+        self.path, self.names = path, list(Outcome.__dataclass_fields__)
+        if path is not None:
+            path.write_text(",".join(self.names) + "\n", "utf-8")
+
+    def add(self, outcomes: Iterable[Outcome]) -> None:
+        if self.path is not None:
+            with self.path.open("a", newline="", encoding="utf-8") as file:
+                csv.DictWriter(file, self.names).writerows(asdict(one) for one in outcomes)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="+", type=Path)
@@ -331,18 +344,15 @@ def main() -> None:
     ]
     outcomes: list[Outcome] = []
     begun = time.monotonic()
-    with multiprocessing.get_context("spawn").Pool(options.jobs, maxtasksperchild=8) as pool:
+    rows = _Rows(options.csv)
+    with multiprocessing.get_context("spawn").Pool(options.jobs) as pool:
         for number, done in enumerate(pool.imap(measure, tasks), 1):
             outcomes += done
+            rows.add(done)
             print(f"{number}/{len(tasks)} projects, {len(outcomes)} programs", end="\r", file=sys.stderr)
     for line in (*table(outcomes), *causes(outcomes, options.top), *failures(outcomes)):
         print(line)
     print(f"{len(tasks)} projects in {time.monotonic() - begun:.0f} s")
-    if options.csv is not None:
-        with options.csv.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, list(Outcome.__dataclass_fields__))
-            writer.writeheader()
-            writer.writerows(asdict(one) for one in outcomes)
     if options.json is not None:
         options.json.write_text(json.dumps([asdict(one) for one in outcomes], indent=1, ensure_ascii=False), "utf-8")
 

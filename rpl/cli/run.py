@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rpl.cli.exploring import explore_backup, exploring_options, limit_of_a_run
 from rpl.cli.files import force_option, refuse_others, write_files
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
@@ -42,6 +43,8 @@ if TYPE_CHECKING:
     from rpl.cell import Cell
     from rpl.emulator.model import RobotModel
     from rpl.project import ReadProgram
+    from rpl.report.dynamics import RunDynamics
+    from rpl.report.times import RunTimes
     from rpl.simulation import RunResult
 
 
@@ -60,6 +63,7 @@ if TYPE_CHECKING:
     help="Write a cell file to be edited, with what the programs ask of the world, and do not run.",
 )
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
+@exploring_options
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
 @report_options
 @click.option("--despite-errors", is_flag=True, help="Run what was read in spite of errors in it.")
@@ -74,6 +78,7 @@ def command(
     cell: str | None,
     new_cell: Path | None,
     entry: str | None,
+    explore: int | None,
     trace: Path | None,
     plot: Path | None,
     timed: bool,
@@ -89,7 +94,8 @@ def command(
     """Run a program on an emulated robot, in simulated time.
 
     Exit status 0 when the program came to its end or its own stop, 1 for a fault, a deadlock or a limit. A program
-    with errors is not started.
+    with errors is not started. With --explore 1 for a fault, and 3 for what was not reached, waits without a time-out
+    and what is missing.
     """
     from rpl.proof.prove import load_cell
     from rpl.simulation import run_program
@@ -97,7 +103,7 @@ def command(
     robots_exist(*robots)
     robot, further = robots[0] if robots else None, robots[1:]
     _can_be_written(trace, plot)
-    limits = limits_of(max_time, max_steps, max_events)
+    limits = limits_of(max_time if explore is None else limit_of_a_run(max_time), max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     surroundings, diagnostics = load_cell(cell), collector()
     read = read_paths(paths, dialect, diagnostics)
@@ -107,6 +113,8 @@ def command(
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
     model = _robot_in(robot or _arm_of(read), surroundings, read.program)
+    if explore is not None:
+        return explore_backup(read, diagnostics, model, surroundings, entry, limits, explore, as_json)
     try:
         with waiting("running"):
             program, driver = read.program, reports.controller
@@ -115,17 +123,22 @@ def command(
         return _interrupted(stopped, trace)
     _remark(result, model)
     layers, times = reports.layers(result, model), reports.times(result, model)
+    _told(result, layers, times, as_json)
+    # Last, so that a file that cannot be written does not cost the result.
+    write_trace(trace, result)
+    beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
+    reports.write(result, read, model, layers, beside)
+    return 0 if result.status in ("finished", "stopped") else 1
+
+
+def _told(result: RunResult, layers: RunDynamics | None, times: RunTimes | None, as_json: bool) -> None:
+    """The run and its reports, for machines or for people."""
     if as_json:
         more = {"dynamics": layers, "times": times}
         print_json(result.as_json() | {name: made.as_json() for name, made in more.items() if made is not None})
     else:
         show(result)
         show_reports(layers, times)
-    # Last, so that a file that cannot be written does not cost the result.
-    write_trace(trace, result)
-    beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
-    reports.write(result, read, model, layers, beside)
-    return 0 if result.status in ("finished", "stopped") else 1
 
 
 def _can_be_written(trace: Path | None, plot: Path | None) -> None:

@@ -34,7 +34,7 @@ def worst_of(
         found = prove(cell, other)
         difference = found.difference
         if difference is not None and not _both_wait(difference):
-            told = replace(difference, explanation=f"{difference.explanation} ({_told(cell)})")
+            told = replace(difference, explanation=f"{difference.explanation} ({cell_told(cell)})")
             return replace(
                 found, difference=told, notes=(*base.notes, f"found by exploring, in cell {tried} of {len(cells)}")
             )
@@ -73,8 +73,8 @@ def _each_once(deviations: Iterable[Deviation]) -> tuple[Deviation, ...]:
     return tuple(greatest.values())
 
 
-def _told(cell: Cell) -> str:
-    """What a cell gives, in a few words."""
+def cell_told(cell: Cell) -> str:
+    """What a cell gives, in a few words (`with di1 = True from 2 s`)."""
     said = [f"{one.signal} = {one.value} from {one.time_s:g} s" for one in cell.inputs]
     said += [f"{name} = {value}" for name, value in cell.variables.items()]
     said += [f"answer {one.answer}" for one in cell.answers]
@@ -82,4 +82,4 @@ def _told(cell: Cell) -> str:
     return f"with {', '.join(said[:_MOST_TOLD])}{more}" if said else "without inputs"
 
 
-__all__ = ["worst_of"]
+__all__ = ["cell_told", "worst_of"]

@@ -6,7 +6,7 @@ hold a block together do not count. A statement over several instructions is rea
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -92,17 +92,19 @@ def reach_of(
     entry: str | None = None,
     remarks: Mapping[Key, str] | None = None,
     one_way: bool = False,
+    routines: Collection[int] | None = None,
 ) -> Reach:
     """What the runs of the program came to, all together. `entry`: the routine that they began with, where it was
     named. From an exploration: `remarks` about statements with a condition that never went the other way; `one_way`:
-    every run of the program goes the same way."""
+    every run of the program goes the same way. `routines`: the numbers of those that count (see LinkedProgram.codes);
+    else all do."""
     done = [run for run in runs if run is not None]
     if not done:
         return Reach(0, 0)
     every: dict[Key, Origin] = {}
     came: set[Key] = set()
-    for _, code in done[0].linked.codes():
-        for origin in code.origins:
+    for number, code in done[0].linked.codes():
+        for origin in code.origins if routines is None or number in routines else ():
             if origin.source is not None:
                 every.setdefault(key_of(origin, code.kind == "action"), origin)
     for run in done:

@@ -124,11 +124,11 @@ def side_of(
     """A normalised program as a side of an exploration; it is linked once."""
     from rpl.linking import link
 
-    side = Side(program, link(program), robot, entry, limits, controller, kinds=_named_inputs(program), kept=kept or {})
+    side = Side(program, link(program), robot, entry, limits, controller, kinds=named_inputs(program), kept=kept or {})
     return side if words is None else replace(side, words=words)
 
 
-def _named_inputs(program: ir.Program) -> dict[str, str]:
+def named_inputs(program: ir.Program) -> dict[str, str]:
     """Input signals that have a name only: folded name -> kind."""
     return {
         node.name.lower(): node.kind
@@ -429,4 +429,4 @@ class _Watched(Simulation):
         )
 
 
-__all__ = ["EVENT", "RECENT", "STATEMENT", "WAIT", "Look", "Seen", "Side", "Source", "side_of"]
+__all__ = ["EVENT", "RECENT", "STATEMENT", "WAIT", "Look", "Seen", "Side", "Source", "named_inputs", "side_of"]
