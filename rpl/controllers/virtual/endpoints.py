@@ -54,7 +54,7 @@ class Endpoints:
         try:
             server = await asyncio.start_server(guarded, self.host, self.port(interface, usual))
         except OSError as error:
-            raise _not_had(self.host, interface, self.port(interface, usual), error) from None
+            raise not_had(self.host, interface, self.port(interface, usual), error) from None
         self.opened(interface, server.sockets[0].getsockname()[1], server.close)
 
     async def datagrams(self, interface: str, usual: int, protocol: asyncio.DatagramProtocol) -> None:
@@ -65,7 +65,7 @@ class Endpoints:
                 lambda: protocol, local_addr=(self.host, self.port(interface, usual))
             )
         except OSError as error:
-            raise _not_had(self.host, interface, self.port(interface, usual), error) from None
+            raise not_had(self.host, interface, self.port(interface, usual), error) from None
         self.opened(interface, transport.get_extra_info("sockname")[1], transport.close)
 
     def beside(self, work: Awaitable[None]) -> None:
@@ -88,7 +88,8 @@ class Endpoints:
                 await waiting
 
 
-def _not_had(host: str, interface: str, port: int, error: OSError) -> UsageError:
+def not_had(host: str, interface: str, port: int, error: OSError) -> UsageError:
+    """The error of a port that cannot be listened at."""
     return UsageError(
         f"{interface} cannot listen at {host}:{port}: {error.strerror or error}; give another address with --host, or "
         f"another port with --port {interface}=NUMBER, or --any-port"

@@ -1,0 +1,22 @@
+"""A virtual FANUC controller: FTP over its memory."""
+
+from __future__ import annotations
+
+from rpl.controllers.fanuc.memory import Memory, rewritten
+from rpl.controllers.virtual.cabinet import Cabinet
+from rpl.controllers.virtual.endpoints import Endpoints
+from rpl.errors import UsageError
+
+
+async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
+    """Open all interfaces. Raises UsageError when a port cannot be had, or the extra [ftp] is not installed."""
+    memory = Memory(cabinet)
+    cabinet.store.fold_names()
+    cabinet.store.may_write, cabinet.store.accepts, cabinet.store.rewrite = memory.may_write, memory.loads, rewritten
+    try:
+        from rpl.controllers.ftp.server import serve_files
+    except ModuleNotFoundError as error:
+        if error.name is None or not error.name.startswith("pyftpdlib"):
+            raise
+        raise UsageError("a virtual FANUC controller needs pyftpdlib: pip install 'robot-rpl[ftp]'") from None
+    serve_files(cabinet, endpoints, memory, ("MD:", "MDB:"), banner="R-30iB FTP server ready.")
