@@ -34,7 +34,8 @@ class SendingRules:
     pairs: suffix -> suffix of the file that must travel with it (first the one that is to be written first). name: what
     a program's file may be called, as a regular expression, and `names` the same in words. flat: the controller has no
     folders. encoding: how its texts are written (a profile may say another), line_ends: `lf`, `crlf` or empty (as they
-    are). same(name, sent, found): is what the controller gives back what was written to it? It may write a text anew.
+    are). binary: patterns of programs that are no texts. same(name, sent, found): is what the controller gives back
+    what was written to it? It may write a text anew.
     """
 
     programs: tuple[str, ...]
@@ -45,6 +46,7 @@ class SendingRules:
     flat: bool = False
     encoding: str = "utf-8"
     line_ends: str = ""
+    binary: tuple[str, ...] = ()
     same: Callable[[str, bytes, bytes], bool] = same_bytes
 
     def is_program(self, name: str) -> bool:
@@ -64,7 +66,8 @@ class SendingRules:
             other = _partner(name, first, second)
             if other is not None and other.lower() not in {one.lower() for one in names}:
                 yield f"{name}: {other} must travel with it, and is not there"
-        yield from _unwritable(name, data, encoding)
+        if not _matches(name, self.binary):
+            yield from _unwritable(name, data, encoding)
 
     def in_order(self, names: list[str]) -> list[str]:
         """The order in which files are written: of a pair first the one that the other needs."""

@@ -22,7 +22,7 @@ from rpl.runtime.limits import Limits
 from rpl.runtime.trace import Event
 from rpl.runtime.values import Value
 from rpl.simulation import Simulation
-from rpl.source import source_from_bytes
+from rpl.source import Source, source_from_bytes
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -104,14 +104,21 @@ class Cabinet:
         return list(self._read(names)[1].of(Severity.ERROR))
 
     def _read(self, names: Sequence[str]) -> tuple[ReadProgram, Diagnostics]:
+        return self._read_sources([source_from_bytes(name, self.store.kept(name)) for name in names])
+
+    def _read_sources(self, sources: Sequence[Source]) -> tuple[ReadProgram, Diagnostics]:
         diagnostics = Diagnostics()
-        sources = [source_from_bytes(name, self.store.kept(name)) for name in names]
         return read_sources(sources, self.dialect, diagnostics), diagnostics
 
     def select(self, names: Sequence[str], entry: str | None = None) -> list[Diagnostic]:
         """Load a program for running, from its beginning; the errors that keep it from that."""
+        sources = [source_from_bytes(name, self.store.kept(name)) for name in names]
+        return self.select_sources(sources, entry)
+
+    def select_sources(self, sources: Sequence[Source], entry: str | None = None) -> list[Diagnostic]:
+        """The same for texts that are no files of the controller."""
         with self.lock:
-            read, diagnostics = self._read(names)
+            read, diagnostics = self._read_sources(sources)
             if diagnostics.has_errors:
                 return list(diagnostics.of(Severity.ERROR))
             simulation = Simulation(read.program, self.model, None, entry, on_event=self._happened, limits=_ENDLESS)
@@ -119,7 +126,7 @@ class Cabinet:
                 simulation.set_input(name, value)
             self._stand(simulation)
             self._simulation = simulation
-            self.program = entry or names[0]
+            self.program = entry or sources[0].path
             self.phase = "stopped"
             return []
 
