@@ -19,7 +19,7 @@ BUILT = "Sep 08 2022"
 @dataclass
 class Panel:
     """loaded: the file that `play` would run. `operational`: manual or automatic where a password protects the modes,
-    else none."""
+    else none. speed: what the slider shows (0 ... 1); the emulated robot does not follow it."""
 
     cabinet: Cabinet
     loaded: str = ""
@@ -28,6 +28,7 @@ class Panel:
     released: bool = True
     protective_stop: bool = False
     popup: str = ""
+    speed: float = 1.0
     log: list[str] = field(default_factory=list)
 
     @property

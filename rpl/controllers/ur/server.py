@@ -8,6 +8,9 @@ from rpl.controllers.sftp.server import open_sftp
 from rpl.controllers.ur import VENDOR
 from rpl.controllers.ur.dashboard_server import serve_dashboard
 from rpl.controllers.ur.panel import Panel
+from rpl.controllers.ur.pushed import Pushed
+from rpl.controllers.ur.rtde_server import Rtde, tick
+from rpl.controllers.ur.variables import Moment
 from rpl.controllers.virtual.cabinet import Cabinet
 from rpl.controllers.virtual.endpoints import Endpoints
 
@@ -17,3 +20,9 @@ async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
     panel = Panel(cabinet)
     await open_sftp(cabinet, endpoints, VENDOR.ports["sftp"], VENDOR.path)
     await endpoints.stream("dashboard", VENDOR.ports["dashboard"], partial(serve_dashboard, panel))
+    moment = Moment(panel)
+    rtde, pushed = Rtde(panel, moment), Pushed(panel, moment)
+    await endpoints.stream("rtde", VENDOR.ports["rtde"], rtde.serve)
+    for port in ("primary", "secondary", "realtime"):
+        await endpoints.stream(port, VENDOR.ports[port], partial(pushed.serve, port))
+    endpoints.beside(tick(moment, [rtde.send, pushed.send]))

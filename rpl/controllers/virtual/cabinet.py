@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
@@ -223,6 +223,19 @@ class Cabinet:
         return None if joints is None or self.model is None else self.model.forward(joints)
 
     @property
+    def tool(self) -> FloatArray | None:
+        """The present tool centre point in the robot's base, shape (4, 4), mm."""
+        from rpl.runtime.functions.neutral import tool_pose
+        from rpl.runtime.moves.chain import matrix_of
+
+        with self.lock:
+            flange = self.flange
+            if flange is None or self._simulation is None:
+                return flange
+            task = next((one for one in self._simulation.tasks if one.robot is not None), None)
+            return flange if task is None else flange @ matrix_of(tool_pose(task))
+
+    @property
     def line(self) -> int:
         """The line that the program is at; 0 without one."""
         with self.lock:
@@ -247,11 +260,17 @@ class Cabinet:
 
     def set_signal(self, name: str, value: Value) -> None:
         """Switch a signal from outside; a program that runs sees it."""
+        self.set_signals({name: value})
+
+    def set_signals(self, values: Mapping[str, Value]) -> None:
+        """Switch several at one moment."""
         with self.lock:
             self.advance()
-            self._signals[name] = value
+            self._signals |= values
             if self._simulation is not None:
-                self._simulation.set_input(name, value)
+                for name, value in values.items():
+                    self._simulation.set_input(name, value)
+                self._simulation.trace.clear()
 
     def variable(self, name: str) -> Value:
         """The value of a variable of the selected program. Raises UsageError when there is none."""

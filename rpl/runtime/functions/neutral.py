@@ -257,6 +257,13 @@ def _modal(task: Task, set: str, used: str) -> Value:
     return task.modal.get(used) if value is None and task.frame.code.rules.last_tool else value
 
 
+def tool_pose(task: Task) -> rigid.Pose:
+    """The tool that the task has now, in the flange."""
+    value = _modal(task, "tool", "tool_in_use")
+    frame = value.parts.get("frame") if isinstance(value, Record) else value
+    return as_pose(frame if frame is not None else identity(task)).rigid()
+
+
 def _current_tool(task: Task) -> Value:
     value = _modal(task, "tool", "tool_in_use")
     if isinstance(value, Record):
