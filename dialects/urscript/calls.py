@@ -97,12 +97,15 @@ class Calls(Expressions):
 
     def register(self, name: str, kind: str, address: Expr | None) -> ir.Signal | None:
         """A register of the fieldbus or of RTDE: a signal with a number where it holds a truth or a real number,
-        else one with a name, whose number has to be written out."""
+        else one with a name, whose number has to be written out. Where a program works out the number of an integer
+        register, all of them are numbered, the first one 1."""
         first = FIRST_REGISTER.get(name.partition("_")[2])
         if first is not None and address is not None:
             if isinstance(address, nodes.Number) and isinstance(address.value, int):
                 return ir.Signal(kind, ir.IntLiteral(address.value + first))
             return ir.Signal(kind, ir.Binary("+", self.value(address, INT), ir.IntLiteral(first)))
+        if self.project.counts_registers and name.endswith("integer_register") and address is not None:
+            return ir.Signal(kind, one_more(self.value(address, INT)))
         if not isinstance(address, nodes.Number):
             return None
         return ir.Signal(kind, name=f"{name}_{address.spelling}")

@@ -206,10 +206,10 @@ _VENDOR = """
         pendant_node set_pos
 """
 _VENDOR_VALUES = """
-    b: socket_open request_boolean_from_primary_client is_freedrive get_freedrive_status
+    b: socket_open request_boolean_from_primary_client is_freedrive
     i: get_conveyor_tick_count tool_contact encoder_get_tick_count modbus_get_error get_tool_output_mode
         get_tool_digital_output_mode request_integer_from_primary_client
-        socket_get_var encoder_unwind_delta_tick_count
+        socket_get_var encoder_unwind_delta_tick_count get_freedrive_status
     n: force get_controller_temp get_joint_temp get_tool_current request_float_from_primary_client
         modbus_get_time_since_signal_invalid get_euromap_input
     t: socket_read_string socket_read_line request_string_from_primary_client get_robot_serial
@@ -221,7 +221,7 @@ _VENDOR_VALUES = """
     li: socket_read_binary_integer socket_read_byte_list
     q: get_actual_joint_positions_history
     h: rpc_factory serial_factory rtsi_factory eip_reader_factory eip_writer_factory
-    p: get_target_tcp_pose_along_path
+    p: get_target_tcp_pose_along_path get_target_waypoint
     ?: modbus_get_signal_status get_rtde_value inv transpose dot cross size get_euromap_output
 """
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -23,6 +24,9 @@ from .splitter import split
 from .statements import Statements, zero
 from .syntax import Syntax, parser, unwrapped
 
+# An integer register whose number is no plain number: `read_input_integer_register(first + 1)`.
+_COUNTED = re.compile(r"\b(?:read_(?:in|out)|write_out)put_integer_register\s*\(\s*(?!\d+\s*[,)])")
+
 
 def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     """Read all sources of one project together."""
@@ -35,6 +39,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         reports.append(done.report)
         contents.append((source, told_apart(tuple([unwrapped(item) for item in done.items]))))
     project = collect(contents)
+    project.counts_registers = any(_COUNTED.search(source.text) for source, _ in contents)
     count_stores(project)
     inference = Inference(project)
     inference.run(diagnostics)

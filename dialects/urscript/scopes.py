@@ -96,9 +96,10 @@ class File:
 
 @dataclass(slots=True, eq=False)
 class Project:
-    """All sources together."""
+    """All sources together. counts_registers: a program works out which integer register it means."""
 
     files: list[File] = field(default_factory=list)
+    counts_registers: bool = False
 
     def functions(self) -> Iterator[Function]:
         for file in self.files:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import posixpath
-from collections.abc import Awaitable, Callable, Coroutine, Sequence
+from collections.abc import Awaitable, Coroutine, Sequence
 from typing import TypeVar, cast
 
 import asyncssh
@@ -72,15 +72,19 @@ class SftpLink:
         self.profile = profile
         self.port = profile.port_of(interface)
         self._gone = ""
+        self._connection: asyncssh.SSHClientConnection | None = None
         password = profile.password
         self._runner = asyncio.Runner()
+        connected = False
         try:
-            self._connection, self._sftp = self._run(self._opened(password), f"{profile.host}:{self.port}")
-        except BaseException:
-            self._runner.close()
-            raise
+            self._sftp = self._run(self._opened(password), f"{profile.host}:{self.port}")
+            connected = True
+        finally:
+            if not connected:
+                self._abort()
+                self._runner.close()
 
-    async def _opened(self, password: str) -> tuple[asyncssh.SSHClientConnection, asyncssh.SFTPClient]:
+    async def _opened(self, password: str) -> asyncssh.SFTPClient:
         pinning = _Pinning(self.profile, self.port)
         try:
             connection = await self._soon(
@@ -101,11 +105,8 @@ class SftpLink:
             if pinning.wrong is None:
                 raise
             raise pinning.wrong from None
-        try:
-            return connection, await self._soon(connection.start_sftp_client(path_encoding=None))
-        except BaseException:
-            connection.abort()
-            raise
+        self._connection = connection
+        return await self._soon(connection.start_sftp_client(path_encoding=None))
 
     # ---- how every question is asked
 
@@ -140,10 +141,12 @@ class SftpLink:
 
     def _given_up(self, error: LinkError) -> LinkError:
         self._gone = "the connection was given up before"
-        connection = getattr(self, "_connection", None)
-        if connection is not None:
-            connection.abort()
+        self._abort()
         return error
+
+    def _abort(self) -> None:
+        if self._connection is not None:
+            self._connection.abort()
 
     def _path(self, name: str) -> bytes:
         return posixpath.join(self.profile.folder, safe_name(name)).encode()
@@ -235,19 +238,16 @@ class SftpLink:
         """Nothing was loaded."""
 
     def close(self) -> None:
-        if not self._gone:
+        """Wait for a polite end, but for a second at most: everything was said."""
+        if not self._gone and self._connection is not None:
             self._gone = "the connection is closed"
             self._sftp.exit()
             self._connection.close()
-            self._end(lambda: self._connection.wait_closed())
+            try:
+                self._runner.run(asyncio.wait_for(self._connection.wait_closed(), 1.0))
+            except (TimeoutError, OSError, asyncssh.Error):
+                self._abort()
         self._runner.close()
-
-    def _end(self, waiting: Callable[[], Coroutine[None, None, None]]) -> None:
-        """Wait for a polite end, but for a second at most: everything was said."""
-        try:
-            self._runner.run(asyncio.wait_for(waiting(), 1.0))
-        except (TimeoutError, OSError, asyncssh.Error):
-            self._connection.abort()
 
 
 def _decoded(name: bytes | str) -> str:

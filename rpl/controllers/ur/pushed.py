@@ -149,7 +149,7 @@ def state_packet(moment: Moment) -> bytes:
         for q, qd in zip(moment.joints, moment.speeds, strict=True)
     )
     tool = struct.pack(">bbddfBffB", 0, 0, 0.0, 0.0, 48.0, 0, 0.0, 25.0, 253)
-    inputs, outputs = bits(panel, "digital_in"), bits(panel, "digital_out")
+    inputs, outputs = bits(panel, "di"), bits(panel, "do")
     board = struct.pack(
         ">iibbddbbddffffBBBIBB",
         inputs,
@@ -190,7 +190,7 @@ def realtime_packet(moment: Moment) -> bytes:
     for each in (moment.joints, moment.speeds, zero6, zero6):  # actual: q, qd, current, control current
         values.extend(each)
     values.extend((*moment.pose, *moment.pose_speed, *zero6, *moment.pose, *moment.pose_speed))
-    values.append(float(bits(panel, "digital_in")))
+    values.append(float(bits(panel, "di")))
     values.extend((25.0,) * 6)  # temperatures of the motors
     values.extend((0.0, 0.0, float(ROBOT_MODES[panel.robot_mode])))  # controller timer, test value, robot mode
     values.extend((253.0,) * 6)  # modes of the joints
@@ -198,7 +198,7 @@ def realtime_packet(moment: Moment) -> bytes:
     values.extend(zero6)  # used by Universal Robots only
     values.extend((*zero3, *zero6, panel.speed, 0.0, 0.0, 0.0, 48.0, 48.0, 0.0))  # accelerometer ... robot current
     values.extend((48.0,) * 6)
-    values.extend((float(bits(panel, "digital_out")), float(RUNTIME[panel.cabinet.phase])))
+    values.extend((float(bits(panel, "do")), float(RUNTIME[panel.cabinet.phase])))
     values.extend((*zero3, *zero3, float(SAFETY_MODES[panel.safety])))  # elbow, safety status
     values.extend((*zero3, 0.0, *zero3, *zero6))  # unused, payload with its centre and inertia
     return struct.pack(f">I{len(values)}d", REALTIME_SIZE, *values)

@@ -20,7 +20,8 @@ _REALS = int(_FIRST["analog"]["float"])
 
 @dataclass(frozen=True, slots=True)
 class Register:
-    """`type`: of RTDE. `signal`: the first name of a signal that it is."""
+    """`type`: of RTDE. `names`: of the signals that it is: the bits of a word, or the two names of an integer, which is
+    numbered in programs that work out its number."""
 
     type: str
     names: tuple[str, ...]
@@ -43,15 +44,17 @@ def _of(direction: str) -> dict[str, Register]:
     way = direction.removesuffix("put")
     found = {
         f"{direction}_bit_registers{first}_to_{first + 31}": Register(
-            "UINT32", tuple(f"digital_{way}[{_BITS + first + bit}]" for bit in range(32))
+            "UINT32", tuple(f"d{way[0]}{_BITS + first + bit}" for bit in range(32))
         )
         for first in (0, 32)
     }
     for number in range(64, 128):
-        found[f"{direction}_bit_register_{number}"] = Register("BOOL", (f"digital_{way}[{_BITS + number}]",))
+        found[f"{direction}_bit_register_{number}"] = Register("BOOL", (f"d{way[0]}{_BITS + number}",))
     for number in range(_COUNT):
-        found[f"{direction}_int_register_{number}"] = Register("INT32", (f"{direction}_integer_register_{number}",))
-        found[f"{direction}_double_register_{number}"] = Register("DOUBLE", (f"analog_{way}[{_REALS + number}]",))
+        found[f"{direction}_int_register_{number}"] = Register(
+            "INT32", (f"{direction}_integer_register_{number}", f"g{way[0]}{number + 1}")
+        )
+        found[f"{direction}_double_register_{number}"] = Register("DOUBLE", (f"a{way[0]}{_REALS + number}",))
     return found
 
 

@@ -73,7 +73,7 @@ def _six(values: tuple[float, ...]) -> Six:
 def bits(panel: Panel, kind: str) -> int:
     """Digital signals: 8 of the controller's, 8 configurable, 2 of the tool; the lowest bit is the first one."""
     signal = panel.cabinet.signal
-    return sum(bool(signal(f"{kind}[{number + 1}]")) << number for number in range(18))
+    return sum(bool(signal(f"{kind}{number + 1}")) << number for number in range(18))
 
 
 def _number(panel: Panel, name: str) -> float:
@@ -105,11 +105,24 @@ def _of_register(register: Register) -> Get:
     return lambda moment: register.value(moment.panel.cabinet)
 
 
+# Variables that are zero here, by their type.
+_AT_REST = {
+    "VECTOR6D": """target_qdd target_moment joint_control_output actual_TCP_force joint_temperatures
+        actual_joint_voltage
+        ft_raw_wrench actual_current_window actual_current_as_torque payload_inertia actual_current target_current""",
+    "VECTOR3D": "actual_tool_accelerometer elbow_position elbow_velocity payload_cog",
+    "DOUBLE": """actual_momentum actual_robot_current io_current euromap67_24V_voltage euromap67_24V_current payload
+        tool_analog_input0 tool_analog_input1 tool_output_current tool_temperature tcp_force_scalar
+        joint_position_deviation_ratio collision_detection_ratio actual_execution_time""",
+    "UINT32": "analog_io_types euromap67_input_bits euromap67_output_bits tool_analog_input_types",
+    "UINT8": "tool_output_mode tool_digital_output0_mode tool_digital_output1_mode",
+    "INT32": "tool_output_voltage",
+}
+
+
 def _outputs() -> dict[str, tuple[str, Get]]:
-    zero, none = _always(_ZERO6), _always(0.0)
     found: dict[str, tuple[str, Get]] = {
         "timestamp": ("DOUBLE", _of_moment("t")),
-        "actual_execution_time": ("DOUBLE", none),
         "robot_mode": ("INT32", lambda moment: ROBOT_MODES[moment.panel.robot_mode]),
         "joint_mode": (
             "VECTOR6INT32",
@@ -120,17 +133,13 @@ def _outputs() -> dict[str, tuple[str, Get]]:
         "runtime_state": ("UINT32", lambda moment: RUNTIME[moment.panel.cabinet.phase]),
         "robot_status_bits": ("UINT32", lambda moment: _status_bits(moment.panel)),
         "safety_status_bits": ("UINT32", lambda moment: _SAFETY_BITS[moment.panel.safety]),
-        "actual_digital_input_bits": ("UINT64", lambda moment: bits(moment.panel, "digital_in")),
-        "actual_digital_output_bits": ("UINT64", lambda moment: bits(moment.panel, "digital_out")),
+        "actual_digital_input_bits": ("UINT64", lambda moment: bits(moment.panel, "di")),
+        "actual_digital_output_bits": ("UINT64", lambda moment: bits(moment.panel, "do")),
         "speed_scaling": ("DOUBLE", lambda moment: moment.panel.speed),
         "target_speed_fraction": ("DOUBLE", lambda moment: moment.panel.speed),
         "script_control_line": ("UINT32", lambda moment: moment.panel.cabinet.line),
-        "payload": ("DOUBLE", none),
-        "payload_cog": ("VECTOR3D", _always((0.0, 0.0, 0.0))),
-        "payload_inertia": ("VECTOR6D", zero),
         "actual_main_voltage": ("DOUBLE", _always(48.0)),
         "actual_robot_voltage": ("DOUBLE", _always(48.0)),
-        "tool_output_voltage": ("INT32", _always(0)),
         "tool_mode": ("UINT32", _always(253)),
         "time_scale_source": ("INT32", _always(-1)),
     }
@@ -139,43 +148,12 @@ def _outputs() -> dict[str, tuple[str, Get]]:
         found[f"{word}_qd"] = ("VECTOR6D", _of_moment("speeds"))
         found[f"{word}_TCP_pose"] = ("VECTOR6D", _of_moment("pose"))
         found[f"{word}_TCP_speed"] = ("VECTOR6D", _of_moment("pose_speed"))
-        found[f"{word}_current"] = ("VECTOR6D", zero)
-    for name in [
-        "target_qdd",
-        "target_moment",
-        "joint_control_output",
-        "actual_TCP_force",
-        "joint_temperatures",
-        "actual_joint_voltage",
-        "ft_raw_wrench",
-        "actual_current_window",
-        "actual_current_as_torque",
-    ]:
-        found[name] = ("VECTOR6D", zero)
-    for name in ("actual_tool_accelerometer", "elbow_position", "elbow_velocity"):
-        found[name] = ("VECTOR3D", _always((0.0, 0.0, 0.0)))
-    for name in [
-        "actual_momentum",
-        "actual_robot_current",
-        "io_current",
-        "euromap67_24V_voltage",
-        "euromap67_24V_current",
-        "tool_analog_input0",
-        "tool_analog_input1",
-        "tool_output_current",
-        "tool_temperature",
-        "tcp_force_scalar",
-        "joint_position_deviation_ratio",
-        "collision_detection_ratio",
-    ]:
-        found[name] = ("DOUBLE", none)
-    for name in ["analog_io_types", "euromap67_input_bits", "euromap67_output_bits", "tool_analog_input_types"]:
-        found[name] = ("UINT32", _always(0))
-    for name in ["tool_output_mode", "tool_digital_output0_mode", "tool_digital_output1_mode"]:
-        found[name] = ("UINT8", _always(0))
+    for kind, names in _AT_REST.items():
+        value = _always((0.0,) * int(kind[6]) if kind.startswith("VECTOR") else 0)
+        found |= dict.fromkeys(names.split(), (kind, value))
     for way in ("input", "output"):
         for number in (0, 1):
-            signal = f"analog_{way[:-3]}[{number + 1}]"
+            signal = f"a{way[0]}{number + 1}"
             found[f"standard_analog_{way}{number}"] = ("DOUBLE", _of_signal(signal))
     for direction in (INPUT, OUTPUT):
         for name, register in REGISTERS[direction].items():
@@ -216,12 +194,12 @@ def apply(panel: Panel, values: dict[str, Value]) -> None:
         if isinstance(mask, int) and isinstance(levels, int):
             for bit in range(8):
                 if mask >> bit & 1:
-                    changed[f"digital_out[{first + bit}]"] = bool(levels >> bit & 1)
+                    changed[f"do{first + bit}"] = bool(levels >> bit & 1)
     mask = values.get("standard_analog_output_mask")
     for bit in (0, 1):
         level = values.get(f"standard_analog_output_{bit}")
         if isinstance(mask, int) and mask >> bit & 1 and isinstance(level, float):
-            changed[f"analog_out[{bit + 1}]"] = level
+            changed[f"ao{bit + 1}"] = level
     fraction = values.get("speed_slider_fraction")
     if values.get("speed_slider_mask") and isinstance(fraction, float):
         panel.speed = min(max(fraction, 0.0), 1.0)

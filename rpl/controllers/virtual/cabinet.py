@@ -31,7 +31,20 @@ if TYPE_CHECKING:
 Mode = Literal["manual", "automatic", "remote"]
 Phase = Literal["stopped", "running", "paused"]
 # Nobody ends the run of a controller; the trace is emptied as it is shown (s, entries).
+# How long a program may be run on at once (s of real time), and in which pieces (s of simulated time).
+BUSY_S, SLICE_S = 0.02, 0.002
 _ENDLESS = Limits(time_s=1e9, steps=1_000_000, events=100_000_000)
+
+
+def _run_on(simulation: Simulation, seconds: float) -> bool:
+    """Run for so much simulated time, but for no longer than BUSY_S of real time: a program that takes more than this
+    machine can do falls behind, and clients are answered all the same. FALSE when the run is over."""
+    began, until = time.monotonic(), simulation.now + seconds
+    slice_s = max(seconds / 16.0, SLICE_S)
+    goes_on = True
+    while goes_on and simulation.now < until and time.monotonic() - began < BUSY_S:
+        goes_on = simulation.run_until(min(until, simulation.now + slice_s))
+    return goes_on
 
 
 @dataclass
@@ -181,7 +194,7 @@ class Cabinet:
                 return
             passed, self._wall_s = now - self._wall_s, now
             try:
-                goes_on = simulation.run_until(simulation.now + passed * self.time_scale)
+                goes_on = _run_on(simulation, passed * self.time_scale)
             except RplError as error:
                 self.messages.append(str(error))
                 goes_on = False
