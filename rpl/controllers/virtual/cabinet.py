@@ -33,7 +33,7 @@ Phase = Literal["stopped", "running", "paused"]
 # Nobody ends the run of a controller; the trace is emptied as it is shown (s, entries).
 # How long a program may be run on at once (s of real time), and in which pieces (s of simulated time).
 BUSY_S, SLICE_S = 0.02, 0.002
-_ENDLESS = Limits(time_s=1e9, steps=1_000_000, events=100_000_000)
+_ENDLESS = Limits(time_s=1e9, steps=50_000, events=100_000_000)
 
 
 def _run_on(simulation: Simulation, seconds: float) -> bool:
