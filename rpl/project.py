@@ -37,6 +37,13 @@ DAMAGED = code(
     "damaged-file", Severity.WARNING, "left out: {reason}", "what it should hold is missing from the program"
 )
 SKIPPED = code("skipped-file", Severity.INFO, "skipped, not a robot program: {reason}")
+SET_ASIDE = code("file-set-aside", Severity.INFO, "set aside: {kind}")
+WITHOUT_TEXT = code(
+    "program-without-text",
+    Severity.WARNING,
+    "{kind}, and the text of the program is not beside it: nothing of it is read",
+    "{advice}",
+)
 TOO_LONG = code(
     "number-too-long",
     Severity.ERROR,
@@ -63,13 +70,15 @@ _TEXT_CONTROLS = frozenset(b"\t\n\r\x0c\x1a")
 @dataclass(frozen=True, slots=True)
 class ReadProgram:
     """Everything read from the paths. `reduced` in normal form, `lowered` before that, both with runs of moves as one
-    node; `program` and `raw` are the same without runs. `dialects` in order of first use."""
+    node; `program` and `raw` are the same without runs. `dialects` in order of first use. beside: files of controllers
+    that are no programs, each with its language."""
 
     reduced: ir.Program
     lowered: ir.Program
     sources: tuple[Source, ...]
     files: tuple[FileReport, ...]
     dialects: tuple[str, ...]
+    beside: tuple[tuple[str, Source], ...] = ()
     _whole: dict[str, ir.Program] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
@@ -111,6 +120,13 @@ class _Found:
     named: bool
 
 
+@dataclass(frozen=True, slots=True)
+class _SetAside:
+    language: str
+    source: Source
+    what: registry.Aside
+
+
 def read_program(
     paths: Sequence[str | Path | Source], dialect: str | None = None, diagnostics: Diagnostics | None = None
 ) -> ReadProgram:
@@ -122,10 +138,15 @@ def read_program(
     collector = diagnostics if diagnostics is not None else Diagnostics()
     dialect = registry.dialect_called(dialect).name if dialect is not None else None
     groups: dict[str, list[Source]] = {}
+    others: list[_SetAside] = []
     for found in _expand(paths, collector):
         beside = side_file(found.source)
         if beside is not None:
             _told(beside, found, collector)
+            continue
+        other = None if found.named else _set_aside(found.source)
+        if other is not None:
+            others.append(other)
             continue
         name, reason = (dialect, "") if dialect else recognise(found.source)
         if name is None:
@@ -133,7 +154,29 @@ def read_program(
             collector.report(NOT_A_PROGRAM if found.named else left_out, Origin(found.source), reason=reason)
             continue
         groups.setdefault(name, []).append(found.source)
-    return _read_groups(groups, collector)
+    _sort_out(others, groups, collector)
+    kept = tuple((one.language, one.source) for one in others if not _is_binary(one.source))
+    return replace(_read_groups(groups, collector), beside=kept)
+
+
+def _set_aside(source: Source) -> _SetAside | None:
+    """What a controller keeps beside programs, if a language knows the file."""
+    told = ((name, registry.dialect(name).aside(source)) for name in registry.dialect_names())
+    return next((_SetAside(name, source, what) for name, what in told if what is not None), None)
+
+
+def _sort_out(others: Sequence[_SetAside], groups: dict[str, list[Source]], diagnostics: Diagnostics) -> None:
+    """A program that is there in two forms is read once, as text; one that is there in another form only is read from
+    it, or said to be missing."""
+    there = {source.path.lower() for sources in groups.values() for source in sources}
+    for one in others:
+        what = one.what
+        if not what.text_at or what.text_at.lower() in there:
+            diagnostics.report(SET_ASIDE, Origin(one.source), kind=what.kind)
+        elif what.readable:
+            groups.setdefault(one.language, []).append(one.source)
+        else:
+            diagnostics.report(WITHOUT_TEXT, Origin(one.source), kind=what.kind, advice=what.advice)
 
 
 def read_sources(sources: Sequence[Source], dialect: str, diagnostics: Diagnostics) -> ReadProgram:
@@ -314,11 +357,15 @@ def _file(path: Path, named: bool, diagnostics: Diagnostics) -> Iterator[_Found]
     data = _bytes_of(path, diagnostics)
     if data is None:
         return
+    yield from _unpacked(str(path), data, named, diagnostics)
+
+
+def _unpacked(path: str, data: bytes, named: bool, diagnostics: Diagnostics) -> Iterator[_Found]:
+    """A file that is packed by itself counts as what it holds."""
     try:
-        yield _Found(source_from_bytes(str(path), archives.unpacked(data, LARGEST_FILE)), named)
+        yield _Found(source_from_bytes(path, archives.unpacked(data, LARGEST_FILE)), named)
     except ValueError as error:
-        at = Origin(source_from_bytes(str(path), b""))
-        diagnostics.report(UNREADABLE_FILE, at, reason=str(error))
+        diagnostics.report(UNREADABLE_FILE, Origin(source_from_bytes(path, b"")), reason=str(error))
 
 
 def _archive(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
@@ -329,7 +376,7 @@ def _archive(path: Path, diagnostics: Diagnostics) -> Iterator[_Found]:
             at = Origin(source_from_bytes(f"{path}/{member.name}", b""))
             diagnostics.report(DAMAGED, at, reason="it is an archive in an archive")
         elif member.data is not None:
-            yield _Found(source_from_bytes(f"{path}/{member.name}", member.data), False)
+            yield from _unpacked(f"{path}/{member.name}", member.data, False, diagnostics)
         elif member.name:
             at = Origin(source_from_bytes(f"{path}/{member.name}", b""))
             diagnostics.report(UNREADABLE_FILE, at, reason=member.reason)

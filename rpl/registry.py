@@ -79,6 +79,18 @@ def _part(package: str, part: str, name: str) -> object:
 
 
 @dataclass(frozen=True, slots=True)
+class Aside:
+    """A file of a controller that stands beside its programs and is none to be read. kind: what it is. text_at: where
+    the text of the program is that it holds in another form, "" when it holds none. readable: it can be read itself
+    where that text is not there; else `advice` says how to get it."""
+
+    kind: str
+    text_at: str = ""
+    readable: bool = False
+    advice: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Dialect:
     """A language that can be read. `package`: its folder as a module, whose parts are imported when asked for:
 
@@ -154,6 +166,11 @@ class Dialect:
             "Callable[[Sequence[Source]], Iterable[tuple[str, str]]] | None", _part(self.package, "machine", "arms")
         )
         return [] if told is None else list(told(sources))
+
+    def aside(self, source: Source) -> Aside | None:
+        """What the file is, if it is one of the controller's that stands beside programs."""
+        told = cast("Callable[[Source], Aside | None] | None", _part(self.package, "machine", "aside"))
+        return None if told is None else told(source)
 
     def is_backup(self, names: frozenset[str]) -> bool:
         """Is a folder a backup of its controller, by what stands in it and in the folders in it? Names in small

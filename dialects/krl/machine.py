@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from rpl.registry import Aside
 from rpl.source import Source
 
 _NAME = re.compile(r'^\s*\$(?:TRAFONAME|MODEL_NAME)\[\]\s*=\s*"#?([^"\n]+)"', re.IGNORECASE | re.MULTILINE)
@@ -24,3 +25,8 @@ def arms(sources: Sequence[Source]) -> Iterator[tuple[str, str]]:
 def is_backup(names: frozenset[str]) -> bool:
     """An archive of the controller has `am.ini` beside the folder KRC, and programs in KRC/R1."""
     return "am.ini" in names or "krc/r1/" in names
+
+
+def aside(source: Source) -> Aside | None:
+    """What an archive says of itself."""
+    return Aside("what an archive says of itself") if source.path.lower().endswith("/am.ini") else None

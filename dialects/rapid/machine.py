@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from rpl.registry import Aside
 from rpl.source import Source
 
 _TYPE = re.compile(r'-use_robot_type\s+"([^"\n]+)"')
@@ -23,3 +24,8 @@ def arms(sources: Sequence[Source]) -> Iterator[tuple[str, str]]:
 def is_backup(names: frozenset[str]) -> bool:
     """A backup has the folders BACKINFO, HOME, RAPID and SYSPAR."""
     return "backinfo/" in names or {"rapid/", "syspar/"} <= names
+
+
+def aside(source: Source) -> Aside | None:
+    """What a backup says of itself."""
+    return Aside("what a backup says of itself") if "/backinfo/" in f"/{source.path.lower()}" else None

@@ -54,6 +54,11 @@ def _is_saved_program(text: str) -> bool:
     return text.lstrip("\ufeff \t\r\n").startswith(("<URProgram", "<?xml")) and "<URProgram" in text[:2000]
 
 
+def _companions(path: str) -> tuple[str, ...]:
+    """The saved program that a script is of."""
+    return (f"{path[:-7]}.urp",) if path.lower().endswith(".script") else ()
+
+
 def _analog_said(program: Program) -> tuple[AnalogPorts, ...]:
     from .levels import said
 
@@ -80,6 +85,7 @@ DIALECT = Dialect(
     title="Universal Robots URScript",
     extensions=(".script", ".urscript", ".ur", ".urp"),
     recognise=_recognise,
+    companions=_companions,
     notation_fields=(),
     signal_name=_signal_name,
     aliases=("ur", "universal robots", "universal-robots"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from rpl.batch import rows
@@ -53,12 +52,13 @@ class _Work:
             yield replace(empty, outcome=rows.FAILED, reason=self._here(_said(error)))
 
     def _read(self) -> ReadProgram:
+        from rpl.inventory.robots import arm_of
         from rpl.project import check_loading, read_program
 
         read = read_program(self.project.paths, self.asked.dialect, self.diagnostics)
         if self.asked.kind not in (RUN, TRANSLATE):
             check_loading(read, self.diagnostics)
-        self.robot = self.asked.robot or _arm(read)
+        self.robot = self.asked.robot or (named.robot if (named := arm_of(read)) is not None else None)
         return read
 
     def _base(self, read: ReadProgram) -> Row:
@@ -176,14 +176,6 @@ def answer(project: Project, asked: Asked) -> Iterator[Row | Answer]:
         found.append(row)
         yield row
     yield Answer(tuple(found), tuple(work.files), digest, time.perf_counter() - started)
-
-
-def _arm(read: ReadProgram) -> str | None:
-    """The arm that the files of a backup name."""
-    from rpl.inventory.robots import arms_of
-
-    found = next((one.robot for one in arms_of(read) if one.robot), None)
-    return found if find_spec("pinocchio") is not None else None
 
 
 def _entries(read: ReadProgram, diagnostics: Diagnostics) -> Sequence[str | None]:

@@ -116,6 +116,17 @@ def robot_named(name: str | None) -> RobotModel | None:
     return load_robot(name)
 
 
+def arm_of(read: ReadProgram) -> str | None:
+    """The robot file of the arm that the files of a backup name, which is said; None: they name none of ours."""
+    from rpl.inventory.robots import arm_of as found_in
+
+    found = found_in(read)
+    if found is None:
+        return None
+    say(f"rpl: the arm is {found.robot}: {found.file} calls it {found.called}; --robot names another", err=True)
+    return found.robot
+
+
 def robots_exist(*names: str | None) -> None:
     """Arms are asked for before anything is read: what is unknown or not installed is said at once."""
     for name in names:

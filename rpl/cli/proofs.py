@@ -11,6 +11,7 @@ import click
 
 from rpl.cli.limits import limits_of
 from rpl.cli.output import (
+    arm_of,
     collector,
     dialect_exists,
     opened,
@@ -63,6 +64,15 @@ def programs_of(question: Question) -> list[ReadProgram]:
     return programs
 
 
+def with_arms(question: Question, programs: Sequence[ReadProgram]) -> Question:
+    """The question with the arms that the programs' backups name, where it names none."""
+    if question.robot is not None:
+        return question
+    first, second = arm_of(programs[0]), question.to_robot or arm_of(programs[1])
+    robot = first or (second if question.to_robot is None else None)
+    return replace(question, robot=robot, to_robot=second if second != robot else None)
+
+
 def answer(question: Question, programs: Sequence[ReadProgram]) -> ProofResult:
     """The verdict about its programs."""
     from rpl.controllerfiles import controller_named
@@ -110,4 +120,4 @@ def keep(kept: Path, question: Question, programs: Sequence[ReadProgram], result
     write_file(kept, as_bytes(document))
 
 
-__all__ = ["answer", "certificate_option", "keep", "programs_of"]
+__all__ = ["answer", "certificate_option", "keep", "programs_of", "with_arms"]

@@ -10,7 +10,7 @@ import click
 from rpl.cli.files import force_option, refuse_others
 from rpl.cli.limits import limit_options
 from rpl.cli.output import STANDARD_INPUT, json_option, print_json, robot_option, say, verbose_option
-from rpl.cli.proofs import answer, certificate_option, keep, programs_of
+from rpl.cli.proofs import answer, certificate_option, keep, programs_of, with_arms
 from rpl.cli.verdicts import accepting, exploring, status_of, teaching
 from rpl.errors import UsageError
 
@@ -86,6 +86,7 @@ def command(
     }
     question = Question(a, b, accept=words, **limits, **asked)
     programs = programs_of(question)
+    question = with_arms(question, programs)
     result = answer(question, programs)
     if kept is not None:
         keep(kept, question, programs, result)

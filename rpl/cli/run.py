@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from rpl.cli.exploring import explore_backup, exploring_options, limit_of_a_run
 from rpl.cli.files import force_option, refuse_others, write_files
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
+    arm_of,
     collector,
     from_option,
     json_option,
@@ -112,7 +112,7 @@ def command(
         return _init_cell(new_cell, read, diagnostics)
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
-    model = _robot_in(robot or _arm_of(read), surroundings, read.program)
+    model = _robot_in(robot or arm_of(read), surroundings, read.program)
     if explore is not None:
         return explore_backup(read, diagnostics, model, surroundings, entry, limits, explore, as_json)
     try:
@@ -156,18 +156,6 @@ def _init_cell(path: Path, read: ReadProgram, diagnostics: Diagnostics) -> int:
     write_files({path: new_cell(read, contents(read, diagnostics)).encode("utf-8")})
     say(f"wrote {path}")
     return 0
-
-
-def _arm_of(read: ReadProgram) -> str | None:
-    """The arm that the files of a backup name, which is said; None: they name none, or none of ours, or
-    the package for arms is not installed."""
-    from rpl.inventory.robots import arms_of
-
-    found = next((one for one in arms_of(read) if one.robot), None)
-    if found is None or find_spec("pinocchio") is None:
-        return None
-    say(f"rpl: the arm is {found.robot}: {found.file} calls it {found.called}; --robot names another", err=True)
-    return found.robot
 
 
 def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program) -> RobotModel | None:

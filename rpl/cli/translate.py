@@ -14,6 +14,7 @@ from rpl import registry
 from rpl.cli.files import BEFORE, force_option, kept_before, refuse_others, stale, write_files
 from rpl.cli.output import (
     STANDARD_INPUT,
+    arm_of,
     collector,
     from_option,
     json_option,
@@ -127,15 +128,16 @@ def command(
     from rpl.proof.cellnames import report_unknown_names
     from rpl.report.readiness import readiness
 
-    own, arms = _options(options), (about["robot"], about["to_robot"])
+    own = _options(options)
     target = _target(target, own)
-    _can_be_done(arms, paths, output, sheet, kept, keeping)
+    _can_be_done((about["robot"], about["to_robot"]), paths, output, sheet, kept, keeping)
     house, earlier = _house(templates, target), _earlier(chosen, output if keeping else None)
     around = read_cell(about["cell"]) if about["cell"] is not None else None
     diagnostics = collector(sorted(accepted.kinds))
     read = read_paths(paths, dialect, diagnostics)
     if diagnostics.has_errors:
         return _refuse(read, diagnostics, as_json)
+    arms = _arms(about, read)
     read, before = _begun_at(read, about["entry"]), len(diagnostics)
     with waiting("writing"):
         report_unknown_names([read.program], around, diagnostics)
@@ -157,8 +159,19 @@ def command(
     else:
         _print(translation, written, output, proof, ready, diagnostics)
     write_sheet(sheet, read, translation, diagnostics, ready, proof, target, arms)
+    return _status(proof, diagnostics)
+
+
+def _status(proof: ProofResult | None, diagnostics: Diagnostics) -> int:
+    """The exit status: that of the proof, and where it is content that of the stops."""
     proved = status_of(proof) if proof is not None else OK
     return proved if proved != OK or not diagnostics.has_losses else GUARDED
+
+
+def _arms(about: dict[str, Any], read: ReadProgram) -> tuple[str | None, str | None]:
+    """The arms of the source, if need be as its backup names it, and of the result."""
+    about["robot"] = about["robot"] or arm_of(read)
+    return about["robot"], about["to_robot"]
 
 
 def _can_be_done(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import PurePath
 
 from rpl import registry
@@ -38,31 +39,54 @@ def arms_of(read: ReadProgram) -> tuple[ArmFound, ...]:
     found: dict[str, ArmFound] = {}
     for language in read.dialects:
         dialect = registry.dialect(language)
-        title = dialect.title.lower().split()
-        names = [one.name for one in summaries if one.maker.lower() in title]
-        for called, path in dialect.arms([one for one in read.sources if spoken.get(one.path) == language]):
+        title = set(dialect.title.lower().split())
+        names = [one.name for one in summaries if title.issuperset(one.maker.lower().split())]
+        sources = [one for one in read.sources if spoken.get(one.path) == language]
+        sources += [source for name, source in read.beside if name == language]
+        for called, path in dialect.arms(sources):
             if called not in found:
                 found[called] = ArmFound(called, PurePath(path).name, *named(called, names))
     return tuple(found.values())
+
+
+def arm_of(read: ReadProgram) -> ArmFound | None:
+    """The first arm with a robot file that the files of a backup name; None too where the package for arms is not
+    installed."""
+    found = next((one for one in arms_of(read) if one.robot), None)
+    return found if find_spec("pinocchio") is not None else None
 
 
 def named(called: str, names: list[str]) -> tuple[str, tuple[str, ...]]:
     """The robot file that a maker's name means, and when there is none files of the same model. names: of robot files
     of that maker."""
     joined = re.sub(r"[^a-z0-9]", "", called.lower())
+    said = called.lower().split()
     words = {_centimetres(word) for word in _WORD.findall(called.lower())}
     whole, near = [], []
     for name in names:
-        own = name.partition("_")[2]
+        own = name.partition("_")[2] or name
         signs = own.replace("_", "")
         parts = [re.sub(r"^[a-z]+(?=\d{3})", "", part) for part in own.split("_")]
-        if (len(signs) >= _SHORTEST and signs in joined) or (parts[0].isdigit() and words.issuperset(parts)):
+        so_called = signs in said or (len(signs) >= _SHORTEST and _stands_in(signs, joined))
+        if so_called or (words.issuperset(parts) and parts[0].isdigit() and _is_series(own, parts[0], called)):
             whole.append(name)
         elif parts[0] in words or (
             (model := own.partition("_")[0].rstrip(_LETTERS)) in joined and len(model) > _SHORTEST
         ):
             near.append(name)
     return (max(whole, key=len), ()) if whole else ("", tuple(near))
+
+
+def _stands_in(signs: str, joined: str) -> bool:
+    """Not where a number goes on: a GP120 is no GP12."""
+    return re.search(re.escape(signs) + r"(?!\d)" * signs[-1].isdigit(), joined) is not None
+
+
+def _is_series(own: str, number: str, called: str) -> bool:
+    """Has the number no other letters in front of it than those of the name: `ROB1_6700_` and `IRB6700`, no MA2010 for
+    an AR2010?"""
+    letters = own.partition(number)[0]
+    return re.search(rf"(?:(?<![a-z\d])|{letters}){number}(?!\d)", called.lower()) is not None
 
 
 def _centimetres(word: str) -> str:
