@@ -17,13 +17,14 @@ Connect = Callable[[Profile], Link]
 @dataclass(frozen=True)
 class Files:
     """The file that is replaced: its name, what is there before, what is brought, and its temporary name (empty: the
-    controller cannot rename)."""
+    controller cannot rename), and where the controller keeps it."""
 
     maker: str
     name: str
     old: bytes
     new: bytes
     temporary: str = ""
+    below: str = ""
 
 
 def requests_of(files: Files, connect: Connect, folder: Path) -> int:
@@ -39,7 +40,7 @@ def endured(files: Files, connect: Connect, folder: Path, fault: str, patience_s
         profile = here.profile(folder, patience_s)
         errors = list(_transfer(files, connect, profile))
         assert all(str(error) for error in errors)
-        held = here.cabinet.store.kept(files.name)
+        held = here.cabinet.store.kept(files.below + files.name)
         same = profile.rules.same
         known = same(files.name, files.old, held) or same(files.name, files.new, held)
         assert known or any(isinstance(error, ReadBackError) for error in errors), (fault, held)

@@ -68,7 +68,7 @@ def hosted(maker: str, files: Mapping[str, bytes], fault: str = "", robot: str =
         asyncio.run_coroutine_threadsafe(_start(made.start(cabinet, endpoints)), loop).result(_STARTED_S)
         yield Hosted(cabinet, endpoints)
     finally:
-        asyncio.run_coroutine_threadsafe(endpoints.close(), loop).result(_STARTED_S)
+        asyncio.run_coroutine_threadsafe(_ended(endpoints), loop).result(_STARTED_S)
         loop.call_soon_threadsafe(loop.stop)
         thread.join(_STARTED_S)
         loop.close()
@@ -76,3 +76,12 @@ def hosted(maker: str, files: Mapping[str, bytes], fault: str = "", robot: str =
 
 async def _start(started: Any) -> None:
     await started
+
+
+async def _ended(endpoints: Endpoints) -> None:
+    """Close, and let what still serves a client come to its end."""
+    await endpoints.close()
+    serving = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
+    for task in serving:
+        task.cancel()
+    await asyncio.gather(*serving, return_exceptions=True)

@@ -255,6 +255,12 @@ class Cabinet:
             return self._simulation.where()[1] if self._simulation is not None else 0
 
     @property
+    def is_over(self) -> bool:
+        """Has the selected program come to its end?"""
+        with self.lock:
+            return self._simulation is not None and self._simulation.ended
+
+    @property
     def place(self) -> tuple[str, int]:
         """The file and the line (1 ...) that the program is at; "" and 0 without one."""
         with self.lock:

@@ -15,7 +15,8 @@ from rpl.controllers.virtual.faults import DroppedError
 from rpl.errors import UsageError
 
 Handler = Callable[[asyncio.StreamReader, asyncio.StreamWriter], Awaitable[None]]
-_LOST = (ConnectionError, asyncio.IncompleteReadError, DroppedError)
+# A handler that is cancelled: the controller is switched off.
+_LOST = (ConnectionError, asyncio.IncompleteReadError, asyncio.CancelledError, DroppedError)
 
 
 @dataclass

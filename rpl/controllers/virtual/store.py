@@ -58,6 +58,17 @@ class Store:
             self.fold = True
             self._files = {self._key(name): (name, data) for name, data in self._files.values()}
 
+    def renamed(self, how: Callable[[str], str]) -> None:
+        """Give every file the name that the controller has for it."""
+        with self.lock:
+            named = [(how(name), data) for name, data in self._files.values()]
+            self._files = {}
+            self.put(named)
+
+    def protect(self, name: str, on: bool) -> None:
+        """Make a file one that nobody writes, or let it be written again."""
+        (self.protected.add if on else self.protected.discard)(self._key(name))
+
     def names(self) -> list[str]:
         """All of them, in order."""
         with self.lock:
