@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import closing
 from pathlib import Path
 
 from rpl.controllers.folder.client import FolderLink
 from rpl.controllers.kuka import c3
 from rpl.controllers.kuka.c3 import MessageError, Reader
-from rpl.controllers.kuka.krl import read_value
+from rpl.controllers.kuka.krl import read_structure, read_value
 from rpl.controllers.kuka.wire import Wire
 from rpl.controllers.link import (
     LARGEST_FILE,
@@ -23,10 +25,12 @@ from rpl.controllers.link import (
 )
 from rpl.controllers.profile import Profile
 from rpl.controllers.rules import safe_name
-from rpl.controllers.showing import Shown
+from rpl.controllers.showing import Sample, Shown, Status
 from rpl.errors import UsageError
 
 _STATES = {"#P_ACTIVE": True, "#P_FREE": False, "#P_RESET": False, "#P_STOP": False, "#P_END": False}
+_SHOWN_SIGNALS = 8
+_USUALLY_WATCHED = ("$PRO_STATE1", "$PRO_NAME1[]", "$OV_PRO", "$AXIS_ACT")
 
 
 class Variables:
@@ -48,6 +52,22 @@ class Variables:
     def truth(self, name: str) -> bool | None:
         found = self.value(name)
         return found if isinstance(found, bool) else None
+
+    def structure(self, name: str) -> dict[str, float]:
+        """The numbers of a structure, by their names; empty when the controller does not have it."""
+        try:
+            parts = read_structure(self.wire.value(name))
+        except NotThereError:
+            return {}
+        return {part: float(value) for part, value in parts.items() if isinstance(value, int | float)}
+
+    def watched(self, name: str) -> Shown | tuple[float, ...] | None:
+        try:
+            text = self.wire.value(name)
+        except NotThereError:
+            return None
+        parts = [value for value in read_structure(text).values() if isinstance(value, int | float)]
+        return tuple(map(float, parts)) if parts else read_value(text)
 
     def identity(self) -> Identity:
         """Serial number of the robot, its machine data's name, the version of the system."""
@@ -201,3 +221,34 @@ def connect(profile: Profile) -> Link:
             raise UsageError(f"{profile.name}: transfer: there is no folder {transfer}")
         return FolderLink(Path(transfer))
     return KukaLink(Wire(profile.host, profile.port_of("c3"), profile.patience_s), folder_of(profile.folder))
+
+
+def status(profile: Profile) -> Status:
+    """One look: axes in degrees, the tool in mm and A, B, C. Raises LinkError."""
+    with closing(Wire(profile.host, profile.port_of("c3"), profile.patience_s)) as wire:
+        variables = Variables(wire)
+        axes, place = variables.structure("$AXIS_ACT"), variables.structure("$POS_ACT")
+        joints = tuple(axes[f"A{number}"] for number in range(1, 7) if f"A{number}" in axes)
+        xyz = tuple(place[name] for name in "XYZ" if name in place)
+        orientation = {name: place[name] for name in "ABC" if name in place}
+        signals: dict[str, Shown] = {}
+        for word in ("$IN", "$OUT"):
+            for number in range(1, _SHOWN_SIGNALS + 1):
+                value = variables.truth(f"{word}[{number}]")
+                if value is not None:
+                    signals[f"{word}[{number}]"] = value
+        identity, state = variables.identity(), variables.state()
+        return Status(identity, state, joints or None, xyz or None, orientation, signals)
+
+
+def watch(profile: Profile, names: Sequence[str], period_s: float) -> Iterator[Sample]:
+    """Variables by their names in KRL, as they are each `period_s`; a structure by its numbers. Raises LinkError."""
+    with closing(Wire(profile.host, profile.port_of("c3"), profile.patience_s)) as wire:
+        variables = Variables(wire)
+        began = time.monotonic()
+        due = began
+        while True:
+            values = {name: variables.watched(name) for name in names or _USUALLY_WATCHED}
+            yield Sample(time.monotonic() - began, values)
+            due = max(due + period_s, time.monotonic())
+            time.sleep(max(0.0, due - time.monotonic()))

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import struct
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import replace
 
 from rpl.controllers.link import (
@@ -19,6 +22,7 @@ from rpl.controllers.link import (
 )
 from rpl.controllers.profile import Profile
 from rpl.controllers.rules import safe_name
+from rpl.controllers.showing import Sample, Shown, Status
 from rpl.controllers.yaskawa import hses
 from rpl.controllers.yaskawa.hses import FILES, ROBOT, Answer, Request
 from rpl.controllers.yaskawa.line import Line
@@ -27,7 +31,18 @@ from rpl.errors import UsageError
 # A job has at most 9999 lines; no job is larger (bytes).
 LARGEST_JOB = 8 * 2**20
 _LONGEST_NAME = 40
+_SHOWN_SIGNALS = 16
+_VARIABLES = {
+    "B": (hses.BYTE, "<B"),
+    "I": (hses.INTEGER, "<h"),
+    "D": (hses.DOUBLE, "<i"),
+    "R": (hses.REAL, "<f"),
+    "S": (hses.TEXT, "16s"),
+    "P": (hses.PLACE, "<13i"),
+}
 _WRITES = 2  # how often a job is sent anew when the line broke in the midst of it, before that is said
+
+Watched = Shown | tuple[float, ...] | None
 
 
 class YaskawaLink:
@@ -39,7 +54,7 @@ class YaskawaLink:
         self.encoding = profile.text_encoding
         self.name_length = _length(profile)
         self.line = Line(profile.host, profile.port_of("files"), profile.patience_s)
-        self.robot = Robot(Line(profile.host, profile.port_of("robot"), profile.patience_s), self.encoding)
+        self.robot = _robot(profile)
 
     # ---- state
 
@@ -110,7 +125,7 @@ class YaskawaLink:
 
     def close(self) -> None:
         self.line.close()
-        self.robot.line.close()
+        self.robot.close()
 
     # ---- transfers
 
@@ -204,6 +219,67 @@ class Robot:
             return "", 0
         return self.text(data[:32]), struct.unpack_from("<i", data, 32)[0]
 
+    def close(self) -> None:
+        self.line.close()
+
+    # ---- where it stands, what its variables hold
+
+    def _position(self, instance: int) -> tuple[int, ...] | None:
+        try:
+            return self.numbers(hses.POSITION, instance, 13)
+        except RefusedError:
+            return None
+
+    def pulses(self) -> tuple[float, ...] | None:
+        """Motor pulses of the axes of the first robot; None: the controller does not say."""
+        found = self._position(1)
+        return None if found is None else tuple(float(count) for count in found[5:])
+
+    def pose(self) -> tuple[float, ...] | None:
+        """X, Y, Z in mm and Rx, Ry, Rz in degrees of the present tool in the base."""
+        found = self._position(101)
+        if found is None:
+            return None
+        return (*(value / 1000.0 for value in found[5:8]), *(value / 10000.0 for value in found[8:11]))
+
+    def signals(self, word: str, first: int, count: int) -> dict[str, Shown]:
+        """Inputs or outputs of programs, by their names."""
+        found: dict[str, Shown] = {}
+        for number in range(first, first + count):
+            byte, bit = divmod(number - 1, 8)
+            if not found or bit == 0:
+                instance = 1 + byte + (1000 if word == "OUT" else 0)
+                eight = _long_enough(self.asked(hses.SIGNALS, instance, 1, hses.GET_ONE), 1)[0]
+            found[f"{word}{number}"] = bool(eight >> bit & 1)
+        return found
+
+    def variable(self, letter: str, number: int) -> Watched:
+        """A position as six or more numbers: pulses, or mm and degrees; None: it is not defined."""
+        command, kind = _VARIABLES[letter]
+        attribute, service = (0, hses.GET_ALL) if letter == "P" else (1, hses.GET_ONE)
+        try:
+            data = _long_enough(self.asked(command, number, attribute, service), struct.calcsize(kind))
+        except RefusedError:
+            return None
+        found = struct.unpack_from(kind, data)
+        if letter == "S":
+            return self.text(found[0])
+        if letter != "P":
+            value: int | float = found[0]
+            return value
+        if found[0] == 0:
+            return tuple(float(count) for count in found[5:])
+        return (*(value / 1000.0 for value in found[5:8]), *(value / 10000.0 for value in found[8:11]))
+
+    def alarms(self) -> tuple[str, ...]:
+        """The latest alarm, if there is one."""
+        try:
+            data = _long_enough(self.asked(hses.ALARM, 1), 60)
+        except RefusedError:
+            return ()
+        code = int.from_bytes(data[:4], "little")
+        return (f"{code} {self.text(data[28:60])}",) if code else ()
+
 
 def _long_enough(data: bytes, count: int) -> bytes:
     if len(data) < count:
@@ -220,3 +296,72 @@ def connect(profile: Profile) -> YaskawaLink:
         link.close()
         raise
     return link
+
+
+def _robot(profile: Profile) -> Robot:
+    return Robot(Line(profile.host, profile.port_of("robot"), profile.patience_s), profile.text_encoding)
+
+
+def status(profile: Profile) -> Status:
+    """One look. Axes are shown in degrees when the profile names the robot, whose pulses per degree are known then.
+    Raises LinkError."""
+    with closing(_robot(profile)) as robot:
+        identity, state = robot.identity(), robot.state()
+        pose = robot.pose()
+        signals: dict[str, Shown] = {}
+        for word in ("IN", "OUT"):
+            signals |= robot.signals(word, 1, _SHOWN_SIGNALS)
+        xyz, angles = (pose[:3], pose[3:6]) if pose is not None else (None, ())
+        orientation = dict(zip(("Rx", "Ry", "Rz"), angles, strict=False))
+        return Status(
+            identity, state, _degrees(robot.pulses(), profile.robot), xyz, orientation, signals, robot.alarms()
+        )
+
+
+def watch(profile: Profile, names: Sequence[str], period_s: float) -> Iterator[Sample]:
+    """Values as they are each `period_s`: variables (`B000`, `I1`, `P010`), signals (`IN3`, `OUT1`), `position`,
+    `pulses`, `job`, `line`, `running`, `servo`. Raises LinkError, UsageError."""
+    with closing(_robot(profile)) as robot:
+        asked = {name: _question(robot, name) for name in names or ("job", "line", "running", "position")}
+        began = time.monotonic()
+        due = began
+        while True:
+            yield Sample(time.monotonic() - began, {name: ask() for name, ask in asked.items()})
+            due = max(due + period_s, time.monotonic())
+            time.sleep(max(0.0, due - time.monotonic()))
+
+
+def _question(robot: Robot, name: str) -> Callable[[], Watched]:
+    """How a value is asked for. Raises UsageError."""
+    word = name.lower()
+    usual: dict[str, Callable[[], Watched]] = {
+        "position": robot.pose,
+        "pulses": robot.pulses,
+        "job": lambda: robot.job()[0],
+        "line": lambda: robot.job()[1],
+        "running": lambda: robot.state().running,
+        "servo": lambda: robot.state().motors_on,
+    }
+    if word in usual:
+        return usual[word]
+    signal = re.fullmatch(r"(in|out|ot)#?\(?(\d+)\)?", word)
+    if signal is not None and 1 <= int(signal[2]) <= 4096:
+        kind, number = ("IN" if signal[1] == "in" else "OUT"), int(signal[2])
+        return lambda: robot.signals(kind, number, 1)[f"{kind}{number}"]
+    variable = re.fullmatch(r"([bidrsp])(\d{1,3})", word)
+    if variable is not None:
+        letter, number = variable[1].upper(), int(variable[2])
+        return lambda: robot.variable(letter, number)
+    raise UsageError(
+        f"{name}: there is no such value; there are {', '.join(usual)}, IN1, OUT1, B000, I000, D000, R000, S000, P000"
+    )
+
+
+def _degrees(pulses: tuple[float, ...] | None, name: str) -> tuple[float, ...] | None:
+    """Joints of that robot; None without one, or without its pulses per degree."""
+    if pulses is None or not name:
+        return None
+    from rpl.emulator.model import load_robot
+
+    scale = load_robot(name).pulse_scale
+    return None if scale is None else tuple(count / float(each) for count, each in zip(pulses, scale, strict=False))

@@ -13,10 +13,13 @@ from rpl.controllers.virtual.transcript import Kind
 from rpl.controllers.yaskawa import hses
 from rpl.controllers.yaskawa.hses import Answer, Request
 from rpl.controllers.yaskawa.loader import place_in_job
+from rpl.controllers.yaskawa.values import LAYOUTS, CommandError, Values
 
 # Names in any encoding come back as they came.
 ENCODING = "latin-1"
 FIRMWARE, PARAMETERS = "RPL1.00.00A (EN)-00", "1.00"
+# Commands for several variables of a kind are those for one of them, so much higher.
+MANY = 0x288
 _AXES = 8
 _ON = 1
 _KINDS: Mapping[int, Kind] = {
@@ -41,6 +44,7 @@ class Commands:
         self.cabinet = cabinet
         self.cycle = 2
         self.held = False
+        self.values = Values(cabinet)
         self.asked: Mapping[int, Callable[[Request], bytes]] = {
             hses.ALARM: self._alarm,
             hses.STATUS: self._status,
@@ -53,6 +57,10 @@ class Commands:
             hses.SELECT: self._select,
             hses.RESET: self._reset,
             hses.SHOW: self._show,
+            hses.SIGNALS: self._signals,
+            hses.REGISTER: self._register,
+            **dict.fromkeys(LAYOUTS, self._variable),
+            **{command + MANY: self._variables for command in LAYOUTS},
         }
 
     def answer(self, request: Request, addr: tuple[str, int], endless: bool) -> Answer:
@@ -96,6 +104,7 @@ class Commands:
     def _job(self, request: Request) -> bytes:
         if request.instance != 1:
             raise CommandError(0xA001)
+        self.cabinet.advance()
         name, line, step = "", 0, 0
         if self.cabinet.program:
             file, at = self.cabinet.place
@@ -133,6 +142,48 @@ class Commands:
         what = model if request.instance == 11 else "GENERAL"
         texts = ((FIRMWARE, 24), (what.upper().replace("_", "-"), 16), (PARAMETERS, 8))
         return _element(request, [text.encode()[:size].ljust(size, b"\x00") for text, size in texts])
+
+    # ---- variables and signals
+
+    def _variable(self, request: Request) -> bytes:
+        self.cabinet.advance()
+        if request.service in (hses.SET_ONE, hses.SET_ALL):
+            self.values.write(request.command, request.instance, request.data)
+            return b""
+        if request.service not in (hses.GET_ONE, hses.GET_ALL):
+            raise CommandError(0xA000)
+        return self.values.read(request.command, request.instance)
+
+    def _variables(self, request: Request) -> bytes:
+        """Several in a row: their number, then their values. One byte values come in even numbers."""
+        self.cabinet.advance()
+        command = request.command - MANY
+        size, count = LAYOUTS[command].size, _number(request)
+        if not count or 4 + count * size > hses.MOST_DATA or (size == 1 and count % 2):
+            raise CommandError(0xB004)
+        numbers = range(request.instance, request.instance + count)
+        if request.service == hses.SET_MANY:
+            if len(request.data) < 4 + count * size:
+                raise CommandError(0xB003)
+            for place, number in enumerate(numbers):
+                self.values.write(command, number, request.data[4 + place * size :])
+            return b""
+        if request.service != hses.GET_MANY:
+            raise CommandError(0xA000)
+        return request.data[:4] + b"".join(self.values.read(command, number) for number in numbers)
+
+    def _signals(self, request: Request) -> bytes:
+        if request.service == hses.SET_ONE:
+            self.values.set_signals(request.instance, request.data)
+            return b""
+        self.cabinet.advance()
+        return self.values.signals(request.instance)
+
+    def _register(self, request: Request) -> bytes:
+        if request.service == hses.SET_ONE:
+            self.values.set_register(request.instance, request.data)
+            return b""
+        return self.values.register(request.instance)
 
     # ---- what is ordered
 
@@ -204,14 +255,6 @@ class Commands:
     def _show(self, request: Request) -> bytes:
         self.cabinet.messages.append(request.data.split(b"\x00")[0].decode(ENCODING))
         return b""
-
-
-class CommandError(Exception):
-    """The controller refuses, with this word."""
-
-    def __init__(self, word: int) -> None:
-        super().__init__(f"{word:04X}")
-        self.word = word
 
 
 def _element(request: Request, elements: list[bytes]) -> bytes:
