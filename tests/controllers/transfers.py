@@ -64,6 +64,7 @@ TRANSFERS = {
             "place.src": _src("place", 1),
             "place.dat": _dat("place", 1),
         },
+        "R1/Program/",
     ),
     "ur": Programs(
         {"pick.script": _script("pick", 1), "other.script": _script("other", 2)},
