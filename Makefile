@@ -6,7 +6,7 @@ ROBOT ?= kuka_kr6r900sixx
 TO_ROBOT ?= abb_irb1200_5_90
 WORKERS ?= 2
 
-.PHONY: demo test test-long lint types clean
+.PHONY: demo test test-long test-clients lint types clean
 
 # The stamps say which set of packages the environment has; pyproject.toml decides when that is out of date.
 $(VENV)/.demo-ready: pyproject.toml setup.py
@@ -32,11 +32,15 @@ demo: $(VENV)/.demo-ready
 	@ls -l demo-out
 
 test: $(VENV)/.test-ready
-	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -m "not slow"
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -m "not slow and not clients"
 
 # The long generated runs; as many minutes as you have.
 test-long: $(VENV)/.test-ready
 	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -m slow
+
+# Other people's clients against the virtual controllers; their packages are installed when they are not there.
+test-clients: $(VENV)/.test-ready
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal -m clients -rs
 
 lint: $(VENV)/.test-ready
 	$(BIN)/ruff check .

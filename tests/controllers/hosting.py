@@ -43,7 +43,7 @@ class Hosted:
             ports=self.endpoints.ports,
             patience_s=patience_s,
             state_folder=folder / ".rpl",
-            **more,
+            **{"user": "robot", "given_password": "robot", **more},
         )
 
     def kinds(self) -> set[str]:

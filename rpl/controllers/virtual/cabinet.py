@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from rpl import ir
 from rpl.controllers.virtual.faults import DroppedError, Faults
 from rpl.controllers.virtual.store import NotDoneError, Store
 from rpl.controllers.virtual.transcript import Kind, Transcript
@@ -137,11 +138,23 @@ class Cabinet:
             simulation = Simulation(read.program, self.model, None, entry, on_event=self._happened, limits=_ENDLESS)
             for name, value in self._signals.items():
                 simulation.set_input(name, value)
+            self._keep_data(simulation)
             self._stand(simulation)
             self._simulation = simulation
             self.program = entry or sources[0].path
             self.phase = "stopped"
             return []
+
+    def _keep_data(self, simulation: Simulation) -> None:
+        """Data that the controller keeps from one run to the next has its last value."""
+        if self._simulation is None or not self._simulation.globals:
+            return
+        old = zip(self._simulation.program.slots, self._simulation.globals, strict=False)
+        for name, value in {slot.qualified: value for slot, value in old if slot.kept}.items():
+            slot = simulation.program.variable_slot(name)
+            if slot is not None:
+                simulation.variable(name)  # has given all data its first value
+                simulation.globals[slot] = value
 
     def _stand(self, simulation: Simulation) -> None:
         """The robot begins where it stands."""
@@ -277,6 +290,12 @@ class Cabinet:
                         return self._simulation.signals[key]
             return self._signals.get(name)
 
+    def signal_names(self) -> list[str]:
+        """The signals that are known by a name: somebody has set them, from outside or in the program."""
+        with self.lock:
+            set_inside = self._simulation.signals if self._simulation is not None else {}
+            return sorted({*self._signals, *(key for key in set_inside if isinstance(key, str))})
+
     def set_signal(self, name: str, value: Value) -> None:
         """Switch a signal from outside; a program that runs sees it."""
         self.set_signals({name: value})
@@ -298,3 +317,35 @@ class Cabinet:
                 raise NotDoneError("missing", name)
             self.advance()
             return self._simulation.variable(name)
+
+    def set_variable(self, name: str, changed: Callable[[Value], Value]) -> None:
+        """Give a global variable of the selected program another value: `changed` makes it from the present one, so
+        that it keeps its shape. Raises UsageError when there is none, and what `changed` raises."""
+        with self.lock:
+            old = self.variable(name)
+            simulation = self._simulation
+            slot = simulation.program.variable_slot(name) if simulation is not None else None
+            if simulation is None or slot is None:
+                raise NotDoneError("missing", name)
+            simulation.globals[slot] = changed(old)
+            simulation.changed()
+
+    def data_names(self) -> list[str]:
+        """The global data of the selected program that it keeps between runs, as `module.name`, in order."""
+        with self.lock:
+            modules = () if self._simulation is None else self._simulation.program.program.modules
+            return sorted(
+                f"{module.name}.{one.name}"
+                for module in modules
+                for one in module.declarations
+                if isinstance(one, ir.Variable) and one.storage == "persistent"
+            )
+
+    def stand_at(self, joints: Sequence[float]) -> None:
+        """The robot is led to other joints from outside (its own units). Raises NotDoneError."""
+        with self.lock:
+            if self.emergency_stop or not self.motors_on:
+                raise NotDoneError("emergency-stop" if self.emergency_stop else "busy", "the drives are off")
+            self._standing = tuple(joints)
+            if self._simulation is not None:
+                self._stand(self._simulation)
