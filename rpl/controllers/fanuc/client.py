@@ -1,19 +1,32 @@
-"""A FANUC controller: its programs by FTP, its state from the reports that it makes of itself."""
+"""A FANUC controller: its programs by FTP, its state from the reports that it makes of itself, values by SNPX."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+import struct
+import time
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import PurePosixPath
 
-from rpl.controllers.fanuc import reports
+from rpl.controllers.fanuc import reports, snpx
 from rpl.controllers.ftp.channel import Channel
 from rpl.controllers.ftp.client import FtpLink, channel_of, folder_of
 from rpl.controllers.link import Identity, LoginError, LostError, RefusedError, RemoteFile, State
 from rpl.controllers.profile import Profile
-from rpl.controllers.showing import Status
+from rpl.controllers.showing import Sample, Status
+from rpl.errors import UsageError
 
-# The longest report that is read of the controller's alarms.
+_WATCHED = re.compile(r"(R|SR|DI|DO|RI|RO|UI|UO)\[(\d+)\]|(\$[\w.$\[\]]+)|(JOINTS|PLACE)", re.IGNORECASE)
+# Where banks of signals begin in the two segments of bits.
+_BANKS = {
+    "DI": (snpx.INPUTS, 0),
+    "DO": (snpx.OUTPUTS, 0),
+    "RI": (snpx.INPUTS, 5000),
+    "RO": (snpx.OUTPUTS, 5000),
+    "UI": (snpx.INPUTS, 6000),
+    "UO": (snpx.OUTPUTS, 6000),
+}
+Read = Callable[[], int | float | bool | str | tuple[float, ...]]
 _REASON = re.compile(r"(ASBN-009 on line \d+, column \d+)\s*\"\s*\"?\s*(ASBN-\d+ [^\"]*?)\s*\"")
 
 
@@ -117,3 +130,49 @@ def status(profile: Profile) -> Status:
         )
     finally:
         link.close()
+
+
+def watch(profile: Profile, names: Sequence[str], period_s: float) -> Iterator[Sample]:
+    """Values by the panel interface: R[1], SR[1], DI[1], DO[1], RI, RO, UI, UO, a system variable that is a whole
+    number ($MCR.$GENOVERRIDE), joints (degrees) and place (X Y Z mm, W P R degrees, in the world). Without names:
+    joints. Raises LinkError, UsageError."""
+    wanted = [_watched(name) for name in names or ("joints",)]
+    client = snpx.SnpxClient(profile.host, profile.port_of("snpx"), profile.patience_s)
+    try:
+        reads = {name: _reader(client, found) for name, found in zip(names or ("joints",), wanted, strict=True)}
+        began = time.monotonic()
+        due = began
+        while True:
+            yield Sample(time.monotonic() - began, {name: read() for name, read in reads.items()})
+            due = max(due + period_s, time.monotonic())
+            time.sleep(due - time.monotonic() if due > time.monotonic() else 0.0)
+    finally:
+        client.close()
+
+
+def _watched(name: str) -> re.Match[str]:
+    found = _WATCHED.fullmatch(name)
+    if found is None:
+        raise UsageError(f"{name}: there are R[1], SR[1], DI[1], DO[1], RI, RO, UI, UO, $NAME, joints and place")
+    return found
+
+
+def _reader(client: snpx.SnpxClient, found: re.Match[str]) -> Read:
+    """Lays the window that a value needs; gives what reads it."""
+    bank, number = (found[1] or "").upper(), int(found[2] or 0)
+    if bank in _BANKS:
+        segment, begin = _BANKS[bank]
+        return lambda: client.bits(segment, begin + number, 1)[0]
+    if bank == "SR":
+        start = client.window(f"SR[{number}]", snpx.TEXT_WORDS)
+        return lambda: snpx.text_of(client.words(start, snpx.TEXT_WORDS))
+    if bank == "R":
+        start = client.window(f"R[{number}]", snpx.NUMBER_WORDS, "0")
+        return lambda: float(struct.unpack("<f", client.words(start, snpx.NUMBER_WORDS))[0])
+    if found[3]:
+        start = client.window(found[3], snpx.NUMBER_WORDS)
+        return lambda: int(struct.unpack("<i", client.words(start, snpx.NUMBER_WORDS))[0])
+    start = client.window("POS[0]", snpx.POSITION_WORDS, "0.0")
+    if found[4].upper() == "JOINTS":
+        return lambda: snpx.position_of(client.words(start, snpx.POSITION_WORDS)).joints[:6]
+    return lambda: snpx.position_of(client.words(start, snpx.POSITION_WORDS)).xyzwpr

@@ -1,8 +1,10 @@
-"""A virtual FANUC controller: FTP over its memory."""
+"""A virtual FANUC controller: FTP over its memory, the panel interface, remote motion."""
 
 from __future__ import annotations
 
 from rpl.controllers.fanuc.memory import Memory, rewritten
+from rpl.controllers.fanuc.motion import start_remote
+from rpl.controllers.fanuc.panel import Panel, Values
 from rpl.controllers.virtual.cabinet import Cabinet
 from rpl.controllers.virtual.endpoints import Endpoints
 from rpl.errors import UsageError
@@ -20,3 +22,6 @@ async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
             raise
         raise UsageError("a virtual FANUC controller needs pyftpdlib: pip install 'robot-rpl[ftp]'") from None
     serve_files(cabinet, endpoints, memory, ("MD:", "MDB:"), banner="R-30iB FTP server ready.")
+    values = Values(cabinet)
+    await endpoints.stream("snpx", 60008, lambda reader, writer: Panel(values).serve(reader, writer))
+    await start_remote(cabinet, endpoints, values)

@@ -146,6 +146,9 @@ class FtpLink:
     def take_in(self, names: Sequence[str]) -> None:
         """Nothing is known of what the controller does with its files."""
 
+    def take_out(self, names: Sequence[str]) -> None:
+        """As above."""
+
     def close(self) -> None:
         self.channel.close()
 

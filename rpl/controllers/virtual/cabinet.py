@@ -163,7 +163,7 @@ class Cabinet:
             if robot is not None and self._standing is not None and self.model is not None:
                 import numpy as np
 
-                robot.joints = np.array(self._standing)
+                robot.joints = robot.planned_joints = np.array(self._standing)
                 break
 
     def start(self) -> None:
