@@ -3,8 +3,9 @@
     python benchmarks/run_backups.py FOLDER... [--jobs N] [--csv F.csv] [--json F.json] [--max-time S] [--seconds S]
 
 Files are grouped into projects (`projects`), each program of a project that nothing in it calls is run from its
-beginning, in a cell in which nothing happens, on the arm that the backup names (without one the moves take no time and
-nothing is out of reach: the table says how many). Nothing is edited, and no cell file is written. How a run ended is
+beginning, in a cell in which nothing happens, on the arm that the backup names. Where it names none of ours the moves
+take no time and nothing is out of reach; a program that asks for places or joints then gets the longest arm of its
+maker. The table says how many. Nothing is edited, and no cell file is written. How a run ended is
 one of CLASSES; the first ones are what a program can come to without its cell.
 """
 
@@ -15,6 +16,7 @@ import csv
 import json
 import multiprocessing
 import os
+import re
 import signal
 import sys
 import time
@@ -22,25 +24,30 @@ import traceback
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import cache
 from pathlib import Path, PurePath
 from types import FrameType
 
 from rpl import registry
 from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostics
+from rpl.emulator.robotfile import robot_summaries
 from rpl.errors import RplError
 from rpl.inventory.contents import Program, contents
 from rpl.inventory.robots import arms_of
 from rpl.linking import link
 from rpl.linking.program import LinkedProgram
-from rpl.project import ReadProgram, read_program
+from rpl.passes.unsetsettings import settings_as_they_were
+from rpl.project import ReadProgram, read_program, recognise
 from rpl.runtime.limits import DEFAULTS
 from rpl.runtime.trace import RunInterrupted, RunResult
 from rpl.simulation import MAIN, Simulation
+from rpl.source import read_source
 
 # What counts as run: the program came as far as a program comes without its cell.
-COUNTED = ("end", "waits for input", "unknown routine")
-# An endless loop that has been all through is reported beside them and not counted.
+COUNTED = ("end", "waits for input", "unknown routine", "routine of the controller")
+# A routine of the controller is one that its language or an option has and no backup can hold (a socket, a service, a
+# torque that is asked for): it is named. An endless loop is reported beside them and not counted.
 CLASSES = (
     *COUNTED,
     "loops",
@@ -48,7 +55,6 @@ CLASSES = (
     "waits for something else",
     "limit",
     "unknown data",
-    "unknown function",
     "unknown statement",
     "out of reach",
     "needs an arm",
@@ -62,7 +68,10 @@ CLASSES = (
 # Folders of a controller's own backup: what lies beside and below them is one project, however deep.
 _TREES = frozenset(("r1", "krc", "rapid", "steu"))
 # Statements of one run.
+_ASKS_FOR_AN_ARM = re.compile(r"run has no robot|needs? a robot")
+_CALLED = re.compile(r"([A-Za-z_][\w.]*)(?:\s*\(|\s+\w+(?:[,;\\]|$))")  # `hrd.read(`, `SocketCreate socket1;`
 _MOST_STATEMENTS = 500_000
+_LEAST_EVENTS = 10
 _IDLE_SHARE = 0.5  # a run whose last move or output lies this share of its time behind polls
 
 
@@ -90,14 +99,24 @@ class _TooSlow(KeyboardInterrupt):
 
 
 def projects(folder: Path) -> Iterator[tuple[str, list[Path]]]:
-    """The files of each project below a folder: a controller's tree is one, else the files of one folder are. An
-    archive is one by itself."""
+    """The files of each project below a folder, by language: a controller's tree is one; else the files of one folder
+    are, with those of folders in it unless a file of one name is in both."""
     suffixes = {suffix for name in registry.dialect_names() for suffix in registry.dialect(name).extensions}
-    groups: dict[str, list[Path]] = defaultdict(list)
+    groups: dict[tuple[str, str], list[Path]] = defaultdict(list)
     for path in _files(folder):
         if path.suffix.lower() in suffixes:
-            groups[_home(folder, path)].append(path)
-    yield from sorted(groups.items())
+            language = recognise(read_source(path))[0]
+            if language is not None:
+                groups[_home(folder, path), language].append(path)
+    for home, language in sorted(groups, key=lambda key: -len(PurePath(key[0]).parts)):
+        above = groups.get((str(PurePath(home).parent), language))
+        here = groups[home, language]
+        if above is None or _is_tree(above):
+            continue
+        if not {one.name.lower() for one in above} & {one.name.lower() for one in here}:
+            above += here
+            del groups[home, language]
+    yield from ((name, paths) for (name, _), paths in sorted(groups.items()))
 
 
 def _files(folder: Path) -> list[Path]:
@@ -160,12 +179,34 @@ def measure(task: tuple[str, list[Path], float, float], whole: bool = False) -> 
         if not found.entries:
             return [Outcome(name, language, "", "no entry", "", "", "", 0.0, 0, 0)] if found.programs else []
         robot = next((one.robot for one in arms_of(read) if one.robot), "")
-        linked = at_any_depth(lambda: link(read.program))
-        return [_run(name, read, linked, one, robot, max_time, seconds) for one in found.entries]
+        program = settings_as_they_were(read.program, read.program, diagnostics)
+        linked = at_any_depth(lambda: link(program))
+        return [_run_on_some_arm(name, read, linked, one, robot, max_time, seconds) for one in found.entries]
     except RplError as error:
         return [Outcome(name, "", "", "refused", str(error)[:120], "", "", 0.0, 0, 0)]
     except Exception:  # noqa: BLE001 (a traceback of ours is what this counts)
         return [Outcome(name, "", "", "crash", _where_ours(), "", "", 0.0, 0, 0)]
+
+
+def _run_on_some_arm(
+    name: str, read: ReadProgram, linked: LinkedProgram, one: Program, robot: str, max_time: float, seconds: float
+) -> Outcome:
+    """On the arm that the backup names; where none is named without one, and on the longest of the maker's where the
+    program asks for places or joints: `robot` then says that it is a guess."""
+    done = _run(name, read, linked, one, robot, max_time, seconds)
+    guess = _longest(done.language)
+    if robot or not guess or not _ASKS_FOR_AN_ARM.search(done.what):
+        return done
+    again = _run(name, read, linked, one, guess, max_time, seconds)
+    return replace(again, robot=f"{guess} (a guess)")
+
+
+@cache
+def _longest(language: str) -> str:
+    """The six-axis arm of the language's maker that reaches farthest."""
+    title = registry.dialect(language).title.lower().split() if language in registry.dialect_names() else []
+    arms = [one for one in robot_summaries() if one.maker.lower() in title and one.axes == 6 and one.reach_mm]
+    return max(arms, key=lambda one: (one.reach_mm or 0.0, one.name)).name if arms else ""
 
 
 def _run(
@@ -176,7 +217,7 @@ def _run(
     said = Outcome(name, language, one.name, "", "", one.place, robot, 0.0, one.moves, 0)
 
     def run() -> RunResult:
-        simulation = Simulation(read.program, robot or None, None, one.name, limits=limits, linked=linked)
+        simulation = Simulation(linked.program, robot or None, None, one.name, limits=limits, linked=linked)
         try:
             simulation.run()
         except KeyboardInterrupt:
@@ -242,14 +283,21 @@ def classified(result: RunResult) -> tuple[str, str]:
     named = text.partition("routine ")[2].partition(" ")[0]
     known = {
         "unknown-routine": ("unknown routine", named),
-        "unknown-function": ("unknown function", named),
+        "unknown-function": ("unknown routine", named),
         "no-value": ("unknown data", text),
         "unknown-data": ("unknown data", text.partition(" ")[0]),
-        "vendor": ("unknown statement", text),
+        "vendor": _of_vendor(text),
         "opaque": ("unreadable", text),
         "unreachable": ("out of reach", text),
     }
     return known.get(fault.code, ("other fault", f"{fault.code}: {text}"))
+
+
+def _of_vendor(text: str) -> tuple[str, str]:
+    """A statement or function that only the controller has: a call is named, anything else is not known."""
+    said = text.removeprefix("nothing says what this stands for: ").removeprefix("nothing says what ")
+    found = _CALLED.match(said)
+    return ("routine of the controller", found[1]) if found else ("unknown statement", text)
 
 
 def _of_deadlock(result: RunResult) -> tuple[str, str]:
@@ -269,8 +317,19 @@ def _of_limit(result: RunResult) -> tuple[str, str]:
         asked = [name for name, moment in one.inputs if moment >= done and moment >= result.time_s * _IDLE_SHARE]
         if asked and done <= result.time_s * _IDLE_SHARE:
             return "waits for input", asked[0]
+    if _comes_round(result):
+        return "loops", ""
     text = result.fault.message[:120] if result.fault is not None else ""
     return "limit", text
+
+
+def _comes_round(result: RunResult) -> bool:
+    """Did the second half of the run come to nothing but places that it had been at before?"""
+    half = len(result.trace) // 2
+    if half < _LEAST_EVENTS:
+        return False
+    early = {(event.origin.file, event.origin.start) for event in result.trace[:half]}
+    return all((event.origin.file, event.origin.start) in early for event in result.trace[half:] if event.kind != "end")
 
 
 # ---- the table
@@ -291,8 +350,9 @@ def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
         yield title.ljust(width) + "".join(str(count).rjust(10) for count in (*row, sum(row)))
     shares = [share([one for one in outcomes if one.language == each]) for each in languages]
     yield "share, %".ljust(width) + "".join(f"{one:.1f}".rjust(10) for one in (*shares, share(outcomes)))
-    without = sum(not one.robot for one in outcomes)
-    yield f"{without} of {len(outcomes)} were run without an arm: none is named, or none of ours"
+    guessed = sum(one.robot.endswith("(a guess)") for one in outcomes)
+    named = sum(bool(one.robot) for one in outcomes) - guessed
+    yield f"on the arm that the backup names {named}, on a guessed one {guessed}, without an arm the others"
 
 
 def share(outcomes: Sequence[Outcome]) -> float:

@@ -57,7 +57,8 @@ _DECLARED_NAME = re.compile(r"([A-Za-z_$][\w$]*)[ \t]*(?:\[[^\]]*\])?[ \t]*(?:,|
 _IMPORT = re.compile(
     r"IMPORT\s+[\w$]+\s+([\w$]+)\s*(?:\[[^\]]*\])?\s+IS\s+(?:/\w+)*/([\w$]+)\s*\.\.\s*([\w$]+)", re.IGNORECASE
 )
-_CONFIG = "$config"
+# The names of the controller's own data lists begin so; what they declare are variables of the whole controller.
+_SYSTEM = "$"
 
 
 @cache
@@ -203,8 +204,9 @@ def _is_name(text: str) -> bool:
 
 
 def _visible(part: ModulePart, public: bool) -> Iterable[ir.Declaration]:
-    """A data list's declarations with their scope: `$config` is seen everywhere, others only what says GLOBAL."""
-    everywhere = part.name.lower() == _CONFIG
+    """A data list's declarations with their scope: the controller's own ($config, $machine, $robcor, $option) are seen
+    everywhere, others only what says GLOBAL."""
+    everywhere = part.name.startswith(_SYSTEM)
     if part.origin.comments:
         yield ir.Unread("", origin=part.origin)
     for declaration in part.declarations:

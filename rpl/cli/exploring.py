@@ -15,6 +15,7 @@ from rpl.errors import UsageError
 from rpl.showing import counted
 
 if TYPE_CHECKING:
+    from rpl import ir
     from rpl.cell import Cell
     from rpl.diagnostics import Diagnostics
     from rpl.emulator.model import RobotModel
@@ -58,6 +59,7 @@ def exploring_options(command: Decorated) -> Decorated:
 
 def explore_backup(
     read: ReadProgram,
+    program: ir.Program,
     diagnostics: Diagnostics,
     model: RobotModel | None,
     cell: Cell | None,
@@ -66,8 +68,9 @@ def explore_backup(
     cells: int,
     as_json: bool,
 ) -> int:
-    """Drive every program that people start, or the named one. Exit status 0 when nothing is to be looked at, 1 for a
-    fault of the programs, 3 for statements that were not reached, waits without a time-out and what is missing."""
+    """Drive every program that people start, or the named one. program: what of the project is run. Exit status 0 when
+    nothing is to be looked at, 1 for a fault of the programs, 3 for statements that were not reached, waits without a
+    time-out and what is missing."""
     from rpl.cell import Cell as NoCell
     from rpl.depth import at_any_depth
     from rpl.inventory.contents import contents
@@ -80,9 +83,7 @@ def explore_backup(
     tight = replace(limits, statements=_STATEMENTS)
     around = cell if cell is not None else NoCell()
     with counting("exploring", len(starts)) as tell:
-        result = at_any_depth(
-            lambda: drive(read.program, link(read.program), starts, stubs, around, model, tight, cells, tell)
-        )
+        result = at_any_depth(lambda: drive(program, link(program), starts, stubs, around, model, tight, cells, tell))
     if as_json:
         print_json(result.as_json())
     else:

@@ -113,11 +113,11 @@ def command(
     if diagnostics.has_errors and not despite_errors:
         return _not_started(diagnostics, as_json)
     model = _robot_in(robot or arm_of(read), surroundings, read.program)
+    program, driver = _settled(read, surroundings), reports.controller
     if explore is not None:
-        return explore_backup(read, diagnostics, model, surroundings, entry, limits, explore, as_json)
+        return explore_backup(read, program, diagnostics, model, surroundings, entry, limits, explore, as_json)
     try:
         with waiting("running"):
-            program, driver = read.program, reports.controller
             result = run_program(program, model, surroundings, entry, None, None, None, limits, driver, further)
     except RunInterrupted as stopped:
         return _interrupted(stopped, trace)
@@ -174,6 +174,18 @@ def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program)
     report_taken_as_zero(with_given(program, given), assumptions)
     print_diagnostics(assumptions, Severity.WARNING)
     return model
+
+
+def _settled(read: ReadProgram, surroundings: Cell | None) -> ir.Program:
+    """The program to run: without settings that it takes from what only the controller knows, each of which is said."""
+    from rpl.passes.given import with_given
+    from rpl.passes.unsetsettings import settings_as_they_were
+
+    left = collector()
+    known = with_given(read.program, surroundings.variables if surroundings is not None else {})
+    program = settings_as_they_were(read.program, known, left)
+    print_diagnostics(left, Severity.WARNING)
+    return program
 
 
 def _remark(result: RunResult, model: RobotModel | None) -> None:

@@ -61,6 +61,11 @@ OWN_TOOLS = {  # the list of a controller declares what is predefined, in its ow
     "$config.dat": "DEFDAT $CONFIG PUBLIC\nFRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0.0,Y 0.0,Z 120.0,A 0.0,B 0.0,C 0.0}\n"
     "TOOL_DATA[2]={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nENDDAT\n",
 }
+MACHINE = {  # what the lists of the machine declare is known everywhere
+    "checks.src": "DEF CHECKS()\n$OUT[1]=($EX_AX_NUM==2)\n$OUT[2]=$TCP_IPO\n$OUT[3]=($LOAD_A1.M==0)\nEND\n",
+    "$machine.dat": "DEFDAT $MACHINE PUBLIC\nINT $EX_AX_NUM=2\nENDDAT\n",
+    "$option.dat": "DEFDAT $OPTION PUBLIC\nBOOL $TCP_IPO=TRUE\nENDDAT\n",
+}
 TWO_LISTS = {
     "checks.src": "DEF CHECKS()\nQ()\n$OUT[1]=(V[1]==1)\n$OUT[3]=(V[2]==2)\nEND\n",
     "checks.dat": "DEFDAT CHECKS\nINT V[2]\nV[1]=1\nV[2]=2\nENDDAT\n",
@@ -112,3 +117,7 @@ def outputs(files: dict[str, str], target: str | None) -> set[int]:
 )
 def test_what_holds_here_holds_there(files: dict[str, str], target: str | None) -> None:
     assert outputs(files, target) == {1, 2, 3}
+
+
+def test_what_the_lists_of_the_machine_declare_is_known_everywhere() -> None:
+    assert outputs(MACHINE, None) == {1, 2, 3}
