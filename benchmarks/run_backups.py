@@ -48,6 +48,8 @@ from rpl.source import read_source
 COUNTED = ("end", "waits for input", "unknown routine", "routine of the controller")
 # A routine of the controller is one that its language or an option has and no backup can hold (a socket, a service, a
 # torque that is asked for): it is named. An endless loop is reported beside them and not counted.
+# A project without a program that people start (a library): named, and no entry program of the share.
+NO_ENTRY = "no entry"
 CLASSES = (
     *COUNTED,
     "loops",
@@ -60,16 +62,16 @@ CLASSES = (
     "needs an arm",
     "unreadable",
     "other fault",
-    "no entry",
     "refused",
     "too slow",
     "crash",
+    NO_ENTRY,
 )
 # Folders of a controller's own backup: what lies beside and below them is one project, however deep.
 _TREES = frozenset(("r1", "krc", "rapid", "steu"))
 # Statements of one run.
 _ASKS_FOR_AN_ARM = re.compile(r"run has no robot|needs? a robot")
-_CALLED = re.compile(r"([A-Za-z_][\w.]*)(?:\s*\(|\s+\w+(?:[,;\\]|$))")  # `hrd.read(`, `SocketCreate socket1;`
+_CALLED = re.compile(r"([A-Za-z_][\w.:]*)(?:\s*\(|\s+\w+(?:[,;\\]|$))")  # `hrd.read(`, `SocketCreate socket1;`
 _MOST_STATEMENTS = 500_000
 _LEAST_EVENTS = 10
 _IDLE_SHARE = 0.5  # a run whose last move or output lies this share of its time behind polls
@@ -177,7 +179,7 @@ def measure(task: tuple[str, list[Path], float, float], whole: bool = False) -> 
         found = contents(read, diagnostics)
         language = " and ".join(read.dialects)
         if not found.entries:
-            return [Outcome(name, language, "", "no entry", "", "", "", 0.0, 0, 0)] if found.programs else []
+            return [Outcome(name, language, "", NO_ENTRY, "", "", "", 0.0, 0, 0)] if found.programs else []
         robot = next((one.robot for one in arms_of(read) if one.robot), "")
         program = settings_as_they_were(read.program, read.program, diagnostics)
         linked = at_any_depth(lambda: link(program))
@@ -296,7 +298,9 @@ def classified(result: RunResult) -> tuple[str, str]:
 def _of_vendor(text: str) -> tuple[str, str]:
     """A statement or function that only the controller has: a call is named, anything else is not known."""
     said = text.removeprefix("nothing says what this stands for: ").removeprefix("nothing says what ")
-    found = _CALLED.match(said)
+    found = _CALLED.match(said.lstrip("(").removeprefix("call "))
+    if found and ":" in found[1]:  # of a library that is not there
+        return "unknown routine", found[1]
     return ("routine of the controller", found[1]) if found else ("unknown statement", text)
 
 
@@ -345,8 +349,8 @@ def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
         row = [counts[kind, language] for language in languages]
         if any(row):
             yield kind.ljust(width) + "".join(str(count).rjust(10) for count in (*row, sum(row)))
-    for title, of in (("entries", None), ("counted", COUNTED)):
-        row = [sum(one.language == each and (of is None or one.kind in of) for one in outcomes) for each in languages]
+    for title, of in (("entries", CLASSES[:-1]), ("counted", COUNTED)):
+        row = [sum(one.language == each and one.kind in of for one in outcomes) for each in languages]
         yield title.ljust(width) + "".join(str(count).rjust(10) for count in (*row, sum(row)))
     shares = [share([one for one in outcomes if one.language == each]) for each in languages]
     yield "share, %".ljust(width) + "".join(f"{one:.1f}".rjust(10) for one in (*shares, share(outcomes)))
@@ -357,7 +361,8 @@ def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
 
 def share(outcomes: Sequence[Outcome]) -> float:
     """Of the entries that count, percent."""
-    return 100.0 * sum(one.kind in COUNTED for one in outcomes) / max(len(outcomes), 1)
+    entries = [one for one in outcomes if one.kind != NO_ENTRY]
+    return 100.0 * sum(one.kind in COUNTED for one in entries) / max(len(entries), 1)
 
 
 def causes(outcomes: Iterable[Outcome], top: int) -> Iterator[str]:
@@ -393,7 +398,7 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--csv", type=Path)
     parser.add_argument("--json", type=Path)
-    parser.add_argument("--max-time", type=float, default=600.0, help="simulated seconds of a run")
+    parser.add_argument("--max-time", type=float, default=3600.0, help="simulated seconds of a run")
     parser.add_argument("--seconds", type=float, default=20.0, help="seconds of computing of a run")
     parser.add_argument("--top", type=int, default=40)
     options = parser.parse_args()
