@@ -30,6 +30,7 @@ _KINDS = {
 }
 _SWITCHING = (ir.Pulse, ir.SetAfter)
 _MAIN = "main"
+_LONGEST = 100  # of a statement that is shown
 _STATEMENTS = tuple(one for one in get_args(ir.Statement) if one not in (ir.Nothing, ir.Label))
 
 
@@ -56,11 +57,12 @@ class Program:
 
 @dataclass(frozen=True, slots=True)
 class Missing:
-    """A name that nothing declares. kind: routine or datum."""
+    """A name that nothing declares. kind: routine or datum; `example`: the first statement with it."""
 
     name: str
     kind: str
     places: tuple[str, ...]
+    example: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,15 +155,18 @@ def place_of(origin: Origin) -> str:
 
 def _missing(diagnostics: Diagnostics) -> Iterator[Missing]:
     """What the resolver reported; each name once, with all its places."""
-    found: dict[tuple[str, str], tuple[str, dict[str, None]]] = {}
+    found: dict[tuple[str, str], tuple[str, str, dict[str, None]]] = {}
     for item in diagnostics:
         kind = {UNKNOWN_ROUTINE.name: "routine", UNKNOWN_NAME.name: "datum"}.get(item.code.name)
         if kind is not None:
             name = str(dict(item.arguments)["name"])
-            _, places = found.setdefault((kind, name.lower()), (name, {}))
+            example = " ".join(item.origin.text.split())[:_LONGEST]
+            _, _, places = found.setdefault((kind, name.lower()), (name, example, {}))
             places[place_of(item.origin)] = None
-    for (kind, _), (name, places) in sorted(found.items(), key=lambda pair: (pair[0][0] != "routine", pair[0][1])):
-        yield Missing(name, kind, tuple(places))
+    for (kind, _), (name, example, places) in sorted(
+        found.items(), key=lambda one: (one[0][0] != "routine", one[0][1])
+    ):
+        yield Missing(name, kind, tuple(places), example)
 
 
 @dataclass(slots=True)

@@ -18,12 +18,19 @@ _HEAD = """# What the programs ask of the world. Lines behind # are proposals: t
 # docs/running.md has all that a cell file can say.
 """
 _MOST = 3  # places or programs that a remark names
+_OUTPUTS = ("digital out", "analog out", "group out")
 _INPUTS = ("digital in", "analog in", "group in")
 
 
 def new_cell(read: ReadProgram, found: Contents) -> str:
     """The text of the file."""
-    parts = [_HEAD, *_inputs(read, found), *_routines(found.missing), *_variables(read, found.missing)]
+    parts = [
+        _HEAD,
+        *_inputs(read, found),
+        *_outputs(read, found),
+        *_routines(found.missing),
+        *_variables(read, found.missing),
+    ]
     return "\n".join(parts)
 
 
@@ -38,14 +45,32 @@ def _inputs(read: ReadProgram, found: Contents) -> Iterator[str]:
             )
 
 
+def _outputs(read: ReadProgram, found: Contents) -> Iterator[str]:
+    """Signals that programs set, and who does: the world answers some of them."""
+    rows = [
+        f"#   {_spelled(read, one)}: set by {some(one.writers, _MOST)}"
+        for one in found.signals
+        if one.writers and one.kind in _OUTPUTS and one.number != "computed"
+    ]
+    if rows:
+        yield "\n".join(["# Outputs, which a [[reaction]] may answer by an input:", *rows, ""])
+
+
 def _routines(missing: Sequence[Missing]) -> Iterator[str]:
     for one in missing:
         if one.kind == "routine":
             yield (
-                f"# called at {some(one.places, _MOST)}\n[[routine]]\nname = {_text(one.name)}\nseconds = 0.0\n"
+                f"# called at {some(one.places, _MOST)}{_call(one)}\n"
+                f"[[routine]]\nname = {_text(one.name)}\nseconds = 0.0\n"
                 f"# value = 0                # where it is a function\n"
                 f'# set = [["$IN[1]", true]]  # inputs that it switches\n'
             )
+
+
+def _call(one: Missing) -> str:
+    """How it is called, with its arguments, which a stub does not look at."""
+    said = "".join(sign if sign.isprintable() else " " for sign in one.example)
+    return f", as in: {said}" if said else ""
 
 
 def _variables(read: ReadProgram, missing: Sequence[Missing]) -> Iterator[str]:

@@ -88,11 +88,14 @@ def test_a_cell_file_with_what_the_programs_ask_for(tmp_path: Path, capsys: pyte
     assert run(["run", str(tmp_path), "--init-cell", str(cell)]) == 0
     text = cell.read_text("utf-8")
     assert '# read by main\n# [[input]]\n# time = 0.0\n# signal = "$IN[7]"\n# value = true\n' in text
-    assert '# called at main.src:4\n[[routine]]\nname = "LOST"\nseconds = 0.0\n' in text
+    assert '# called at main.src:4, as in: LOST(1)\n[[routine]]\nname = "LOST"\nseconds = 0.0\n' in text
+    assert "# Outputs, which a [[reaction]] may answer by an input:\n#   $OUT[1]: set by main\n" in text
     assert '[variables]\n# "far" = 0  # asked for at main.src:5\n' in text
     capsys.readouterr()
     assert run(["run", str(tmp_path), "--cell", str(cell), "--json"]) == 1  # it waits for the input, as it is
-    assert json.loads(capsys.readouterr().out)["status"] == "deadlock"
+    told = capsys.readouterr()
+    assert json.loads(told.out)["status"] == "deadlock"
+    assert "cell.toml" not in told.err  # nothing to say about the file itself
     edited = (
         text.replace("# [[input]]\n# time", "[[input]]\ntime")
         .replace("# signal", "signal")
