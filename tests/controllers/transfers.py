@@ -69,7 +69,6 @@ TRANSFERS = {
     "ur": Programs(
         {"pick.script": _script("pick", 1), "other.script": _script("other", 2)},
         {"pick.script": _script("pick", 3), "place.script": _script("place", 1)},
-        "programs/",
     ),
     "yaskawa": Programs(
         {"PICK.JBI": _inform("PICK", 1), "OTHER.JBI": _inform("OTHER", 2)},

@@ -38,12 +38,17 @@ class _Open:
 class _Login(asyncssh.SSHServer):
     """Password of the cabinet, whoever the user is."""
 
-    def __init__(self, cabinet: Cabinet, interface: str) -> None:
+    def __init__(self, cabinet: Cabinet, interface: str, open_now: set[asyncssh.SSHServerConnection]) -> None:
         self.cabinet = cabinet
         self.interface = interface
+        self.open_now = open_now
 
     def connection_made(self, conn: asyncssh.SSHServerConnection) -> None:
         self.connection = conn
+        self.open_now.add(conn)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self.open_now.discard(self.connection)
 
     def begin_auth(self, username: str) -> bool:
         return True
@@ -308,13 +313,14 @@ def _said(error: NotDoneError) -> asyncssh.SFTPError:
 
 async def open_sftp(cabinet: Cabinet, endpoints: Endpoints, usual: int, root: str, interface: str = "sftp") -> None:
     """Let clients see the store's files below `root`. Raises UsageError when the port cannot be had."""
+    open_now: set[asyncssh.SSHServerConnection] = set()
     key = asyncssh.generate_private_key("ssh-ed25519")
     wanted = endpoints.port(interface, usual)
     try:
         acceptor = await asyncssh.listen(
             endpoints.host,
             wanted,
-            server_factory=lambda: _Login(cabinet, interface),
+            server_factory=lambda: _Login(cabinet, interface, open_now),
             server_host_keys=[key],
             sftp_factory=lambda chan: _Files(chan, cabinet, interface, root),
             allow_scp=False,
@@ -325,5 +331,8 @@ async def open_sftp(cabinet: Cabinet, endpoints: Endpoints, usual: int, root: st
 
     async def close() -> None:
         acceptor.close()
+        for connection in tuple(open_now):
+            connection.abort()
+            await connection.wait_closed()
 
     endpoints.opened(interface, acceptor.get_port(), close)

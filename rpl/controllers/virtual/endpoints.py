@@ -45,11 +45,15 @@ class Endpoints:
         Raises UsageError when the port cannot be had."""
 
         async def guarded(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            task = asyncio.current_task()
+            assert task is not None  # this runs in one
+            self._running.add(task)
             try:
                 await handler(reader, writer)
             except _LOST:
                 writer.transport.abort()
             finally:
+                self._running.discard(task)
                 writer.close()
 
         try:
@@ -81,8 +85,10 @@ class Endpoints:
 
     async def close(self) -> None:
         """Switch off."""
-        for task in tuple(self._running):
+        running = tuple(self._running)
+        for task in running:
             task.cancel()
+        await asyncio.gather(*running, return_exceptions=True)
         for close in reversed(self._closing):
             waiting = close()
             if waiting is not None:
