@@ -23,8 +23,8 @@ def arms(sources: Sequence[Source]) -> Iterator[tuple[str, str]]:
 
 
 def is_backup(names: frozenset[str]) -> bool:
-    """An archive of the controller has `am.ini` beside the folder KRC, and programs in KRC/R1."""
-    return "am.ini" in names or "krc/r1/" in names
+    """An archive of the controller has `am.ini` beside the folder KRC, and programs in KRC/R1; people keep R1 alone."""
+    return "am.ini" in names or "krc/r1/" in names or "r1/program/" in names
 
 
 def aside(source: Source) -> Aside | None:

@@ -62,12 +62,14 @@ class _Work:
         return read
 
     def _base(self, read: ReadProgram) -> Row:
+        """What was read. Files with the ending of a program that are none are strangers, as in any folder."""
         from rpl.project import NOT_A_PROGRAM, SIDE_FILE
 
-        errors = self.diagnostics.of(Severity.ERROR)
-        if not read.files and all(one.code in (NOT_A_PROGRAM, SIDE_FILE) for one in errors):
-            why = self._told(errors[0]) if errors else ""
-            return Row(self.project.name, outcome=rows.NO_PROGRAM, reason=why)
+        strangers, errors = list[Diagnostic](), list[Diagnostic]()
+        for one in self.diagnostics.of(Severity.ERROR):
+            (strangers if one.code in (NOT_A_PROGRAM, SIDE_FILE) else errors).append(one)
+        if not read.files and not errors:
+            return Row(self.project.name, outcome=rows.NO_PROGRAM, reason=self._told(strangers[0]) if strangers else "")
         base = Row(
             self.project.name,
             " ".join(read.dialects),

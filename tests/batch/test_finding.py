@@ -25,6 +25,7 @@ def names(found: list[Project]) -> list[str]:
     [
         ("BACKINFO/backinfo.txt", "RAPID/TASK1/PROGMOD/Main.mod", "SYSPAR/MOC.cfg"),
         ("am.ini", "KRC/R1/Program/main.src", "KRC/R1/System/$config.dat"),
+        ("R1/Program/main.src", "R1/System/$config.dat"),
         ("MAIN.LS", "SYSVARS.VA", "MAIN.TP"),
         ("MAIN.JBI", "TOOL.CND", "ALL.PRM"),
         ("app.pjx", "start.pgx", "app.dtx"),
