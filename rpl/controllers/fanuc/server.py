@@ -1,10 +1,11 @@
-"""A virtual FANUC controller: FTP over its memory, the panel interface, remote motion."""
+"""A virtual FANUC controller: FTP over its memory, the panel interface, remote motion, Stream Motion."""
 
 from __future__ import annotations
 
 from rpl.controllers.fanuc.memory import Memory, rewritten
 from rpl.controllers.fanuc.motion import start_remote
 from rpl.controllers.fanuc.panel import Panel, Values
+from rpl.controllers.fanuc.streaming import start_streaming
 from rpl.controllers.virtual.cabinet import Cabinet
 from rpl.controllers.virtual.endpoints import Endpoints
 from rpl.errors import UsageError
@@ -25,3 +26,4 @@ async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
     values = Values(cabinet)
     await endpoints.stream("snpx", 60008, lambda reader, writer: Panel(values).serve(reader, writer))
     await start_remote(cabinet, endpoints, values)
+    await start_streaming(endpoints, values)

@@ -115,6 +115,8 @@ class Channel:
                     raise GarbledError(f"{command[5:]}: the data have no end ({longest} bytes were read)")
             if size is not None and got < size:
                 raise LostError(f"{self.where}: {got} of {size} bytes came")
+            if size is not None and got > size:
+                raise GarbledError(f"{self.where}: {got} bytes came, and {size} were announced")
         return b"".join(pieces)
 
     def lines(self, command: str) -> list[str]:

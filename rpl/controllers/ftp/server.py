@@ -345,7 +345,7 @@ class _Session(FTPHandler):  # type: ignore[misc]
             self.misbehaves, self.announced = "", None
             self.push_dtp_data(_Endless(b"and so on\r\n" * 500), isproducer=True, cmd=command)
         elif self.misbehaves == "garbage":
-            self.misbehaves, self.announced = "", None
+            self.misbehaves = ""
             self.push_dtp_data(_NOISE, cmd=command)
         else:
             self.push_dtp_data(data, cmd=command)

@@ -139,6 +139,28 @@ def test_remote_motion_moves_the_robot_and_is_told_as_a_start(fanuc: Served, tmp
     assert status(fanuc.profile(tmp_path, PATIENCE_S)).joints is not None
 
 
+def test_stream_motion_tells_its_state_and_takes_joints(fanuc: Served) -> None:
+    peer = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    peer.settimeout(PATIENCE_S)
+    to = (fanuc.host, fanuc.ports["streammotion"])
+    peer.sendto(struct.pack(">II", 6, 0), to)
+    assert struct.unpack(">II", peer.recv(200)) == (6, 2)
+    peer.sendto(struct.pack(">IIII", 3, 2, 1, 0), to)
+    assert len(peer.recv(400)) == 8 + 16 + 160
+    peer.sendto(struct.pack(">II", 0, 2), to)
+    state = peer.recv(200)
+    assert len(state) == 8 + 16 + 3 * 36
+    joints = list(struct.unpack_from(">9f", state, 8 + 20 + 36 - 4))
+    joints[0] += 1.5
+    head = struct.pack(">IIIBBHHBBHHHHHH", 5, 2, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0xFFFF, 0x3333, 0x3333)
+    peer.sendto(head + struct.pack(">9d", *joints), to)
+    deadline = time.monotonic() + PATIENCE_S
+    while abs(struct.unpack_from(">9f", peer.recv(200), 8 + 20 + 36 - 4)[0] - joints[0]) > 1e-3:
+        assert time.monotonic() < deadline
+    peer.sendto(struct.pack(">II", 2, 2), to)
+    peer.close()
+
+
 HOSTILE = {
     "noise": bytes(range(256)) * 4,
     "an answer of 64 kB": bytes([1, 0, 0, 0, 255, 255]) + bytes(300),
