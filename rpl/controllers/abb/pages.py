@@ -56,7 +56,7 @@ def page_text(page: Page, frame: Frame, base: str) -> bytes:
         f'<base href={quoteattr(base)}/></head><body><div class="state">{_links(page)}<ul>'
         + "".join(_listed(thing) for thing in page.things)
         + "</ul></div></body></html>"
-    ).encode()
+    ).encode("utf-8", "replace")
 
 
 def _json(page: Page, frame: Frame, base: str) -> dict[str, object]:

@@ -219,7 +219,7 @@ def _modules(inside: Inside, request: Asked, _: re.Match[str]) -> Page:
 
 def _module_text(inside: Inside, request: Asked, found: re.Match[str]) -> Page:
     module = inside.module(request.query.get("task", ""), found[1])
-    text = module.data.decode("utf-8" if request.is_second else "latin-1", "replace")
+    text = module.data.decode("utf-8" if request.is_second else "latin-1", "surrogateescape")
     values = {"module-text": text, "module-length": str(len(text))}
     return Page((Thing("rap-module-text", module.name, values),))
 

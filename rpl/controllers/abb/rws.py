@@ -227,7 +227,12 @@ class RwsLink:
             text = self._values("text", "rap-module-text", task=task, module=module).get("module-text")
             if text is None:
                 raise GarbledError(f"{self.profile.name}: the controller does not give the text of {module}")
-            return text.encode(self.profile.text_encoding, "surrogateescape")
+            try:
+                return text.encode(self.profile.encoding or "utf-8", "surrogateescape")
+            except UnicodeEncodeError:
+                raise GarbledError(
+                    f"{self.profile.name}: {module} has characters that {self.profile.encoding} has not"
+                ) from None
         name = f"rpl_{module}"[:_LONGEST_NAME]
         path = self.generation.file_path(_TEMPORARY, f"{name}.mod")
         saved = self.generation.path("save", task=task, module=module)

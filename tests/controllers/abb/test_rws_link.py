@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 
 from rpl.controllers.link import LoginError, NotThereError, OtherControllerError, RefusedError
+from rpl.controllers.vendors import vendor
+from tests.controllers.hosting import hosted
 from tests.controllers.serving import Served, served
 
 pytest.importorskip("aiohttp", reason="the extra `rws` is not installed")
@@ -139,6 +141,47 @@ def test_only_one_is_master(controller: Served, tmp_path: Path) -> None:
 def test_nobody_comes_in_without_the_password(controller: Served, tmp_path: Path, generation: str) -> None:
     with pytest.raises(LoginError):
         connected(controller, tmp_path, generation, given_password="wrong")
+
+
+TASKS = {"T_ROB1/one.mod": b"MODULE one\nENDMODULE\n", "T_ROB2/two.mod": b"MODULE two\nENDMODULE\n"}
+
+
+def test_the_folder_or_the_profile_names_the_task(tmp_path: Path) -> None:
+    with hosted("abb", {**TASKS, "extra.mod": MODULE}) as here:
+        for tasks, name, wanted in (
+            ((), "T_ROB2/two.mod", ("T_ROB2", "two")),
+            (("T_ROB2",), "extra.mod", ("T_ROB2", "extra")),
+            (("T_ROB2",), "T_ROB1/one.mod", ("T_ROB1", "one")),
+        ):
+            link = vendor("abb").connect(here.profile(tmp_path, tasks=tasks))
+            link.lock()
+            link.take_in([name])
+            assert wanted[1] in link._modules(wanted[0])  # type: ignore[attr-defined]
+            link.close()
+        link = vendor("abb").connect(here.profile(tmp_path))
+        with pytest.raises(RefusedError, match="T_ROB1, T_ROB2"):
+            link.take_in(["extra.mod"])
+        link.close()
+
+
+def test_in_manual_mode_nobody_is_forced_to_give_the_mastership(tmp_path: Path) -> None:
+    with hosted("abb", TASKS) as here:
+        here.cabinet.mode = "manual"
+        link = vendor("abb").connect(here.profile(tmp_path))
+        assert link.state().mode == "MANR"
+        with pytest.raises(RefusedError, match="pendant"):
+            link.lock()
+        link.close()
+        assert not [one for one in here.cabinet.transcript.requests if "rmmp" in one.text]
+
+
+@pytest.mark.parametrize("text", ["\u00fc", "\u6f22"])
+def test_texts_of_the_second_generation_are_utf_8(tmp_path: Path, text: str) -> None:
+    data = f"MODULE one\r\n  ! {text}\r\nENDMODULE\r\n".encode()
+    with hosted("abb", {"one.modx": data}) as here:
+        link = vendor("abb").connect(here.profile(tmp_path, options={"generation": "2"}))
+        assert link.memory("T_ROB1", "one") == data  # type: ignore[attr-defined]
+        link.close()
 
 
 def test_nothing_was_started_selected_or_switched_on(controller: Served) -> None:
