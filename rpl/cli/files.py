@@ -23,7 +23,7 @@ MANIFEST = ".rpl-written.json"
 BEFORE = ".rpl-before"  # what somebody had changed, before it was written anew
 _FORCE = "rpl.force"
 # Parameters of commands that name what is read.
-_INPUTS = ("paths", "a", "b", "log", "cell", "robot", "robots", "to_robot", "controller", "folder")
+_INPUTS = ("paths", "base", "a", "b", "log", "cell", "robot", "robots", "to_robot", "controller", "folder")
 
 
 def _keep_force(context: click.Context, parameter: click.Parameter, value: bool) -> None:

@@ -32,6 +32,7 @@ COMMANDS = {
     "check": "Read programs and report what cannot be read or makes no sense.",
     "project": "Show what a backup holds: programs, calls, signals, points.",
     "diff": "Show what two versions of a program differ in, by meaning.",
+    "merge": "Bring two changed versions of a program together.",
     "translate": "Write programs in another controller's language.",
     "run": "Run a program on an emulated robot.",
     "batch": "Check, run or translate every project of a plant's archive.",

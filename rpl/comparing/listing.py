@@ -14,6 +14,18 @@ from rpl.source import Comment, Origin, Source
 from rpl.trivia import Trivia
 
 
+class _Moves:
+    """The moves of a run, each made when it is asked for."""
+
+    __slots__ = ("columns", "make")
+
+    def __init__(self, run: ir.Run) -> None:
+        self.columns, self.make = run.columns, run.maker()
+
+    def move(self, at: int) -> ir.Move:
+        return self.make(self.columns.spellings(at), self.columns.origin(at))
+
+
 @dataclass(slots=True)
 class Unit:
     """One statement of the source, with all nodes that were made of it. `mark`: it is a branch or the end of a block,
@@ -24,7 +36,7 @@ class Unit:
     end: int
     nodes: list[ir.Statement]
     mark: str = ""
-    run: ir.Run | None = None
+    run: _Moves | None = None
     number: int = 0
 
     @property
@@ -36,8 +48,7 @@ class Unit:
     def statements(self) -> tuple[object, ...]:
         """Its nodes without the bodies of blocks."""
         if self.run is not None:
-            columns = self.run.columns
-            return (self.run.maker()(columns.spellings(self.number), columns.origin(self.number)),)
+            return (self.run.move(self.number),)
         return tuple(_head(one) for one in self.nodes)
 
 
@@ -72,11 +83,11 @@ class Listing:
 
     def run(self, run: ir.Run) -> None:
         columns, key = run.columns, self.trivia.key
-        source = columns.source
+        source, moves = columns.source, _Moves(run)
         text = source.text
         for at, (start, end) in enumerate(zip(columns.starts.tolist(), columns.ends.tolist(), strict=True)):
             self.keys.append(key(text[start:end]))
-            self.units.append(Unit(source, start, end, [], run=run, number=at))
+            self.units.append(Unit(source, start, end, [], run=moves, number=at))
 
     def statement(self, node: ir.Statement) -> None:
         origin = node.origin
