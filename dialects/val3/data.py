@@ -61,8 +61,17 @@ def data_of(source: Source) -> Iterator[Datum]:
         start = source.text.find(f'name="{made.name}"', at)
         start = source.text.rfind("<", 0, start) if start >= 0 else at
         at = max(at, start + 1)
-        end = source.text.find("\n", start)
+        end = _end(source.text, tag, start)
         yield replace(made, start=start, end=end if end > start else start)
+
+
+def _end(text: str, tag: str, start: int) -> int:
+    """Where the element ends that starts there: with its values, where it has some."""
+    head = text.find(">", start)
+    if head < 0 or text[head - 1] == "/":
+        return head + 1
+    close = text.find(f"</{tag}>", head)
+    return close + len(tag) + 3 if close >= 0 else text.find("\n", start)
 
 
 _OLD = frozenset(

@@ -69,7 +69,7 @@ class Declared:
 
     def pair(self, old: ir.Declaration, new: ir.Declaration, before: Scope, after: Scope) -> None:
         a, b = old.origin, new.origin
-        if a.source is not None and b.source is not None and a.text == b.text and a.text:
+        if a.source is not None and b.source is not None and a.text == b.text and a.text and old == new:
             return
         if isinstance(old, ir.Variable) and isinstance(new, ir.Variable):
             if old.type == new.type and old.storage == new.storage:

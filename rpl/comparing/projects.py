@@ -45,9 +45,20 @@ class _Comparing:
     changes: list[Change] = field(default_factory=list)
     same: list[tuple[Spot | None, Spot | None]] = field(default_factory=list)
     scopes: tuple[ProgramScope, ProgramScope] = field(init=False)
+    lists: dict[int, Listing] = field(default_factory=dict)  # of all routines, by identity
+    statements: tuple[frozenset[tuple[int, int]], frozenset[tuple[int, int]]] = field(init=False)
 
     def __post_init__(self) -> None:
         self.scopes = ProgramScope(self.a.reduced), ProgramScope(self.b.reduced)
+        self.statements = self.listed(self.a.reduced), self.listed(self.b.reduced)
+
+    def listed(self, program: ir.Program) -> frozenset[tuple[int, int]]:
+        """Where the statements of a program stand; its routines are listed on the way."""
+        lists = []
+        for module in program.modules:
+            trivia = registry.dialect(module.dialect).trivia
+            lists += [self.lists.setdefault(id(one), listing(one, trivia)) for one in module.routines]
+        return _statements(lists)
 
     def all(self) -> Differences:
         pairs, removed, added = paired(self.a.reduced.modules, self.b.reduced.modules, _module_key)
@@ -96,26 +107,25 @@ class _Comparing:
         self.attributes(old, new, trivia)
         self.changes += comments(remarks(old), remarks(new), (new.name, ""))
         pairs, removed, added = paired(old.routines, new.routines, lambda one: one.name.lower())
-        lists = [(listing(one, trivia), listing(other, trivia)) for one, other in pairs]
-        extra = [listing(one, trivia) for one in removed], [listing(one, trivia) for one in added]
-        before = Side(self.scopes[0].module(old), _statements([*(one for one, _ in lists), *extra[0]]))
-        after = Side(self.scopes[1].module(new), _statements([*(one for _, one in lists), *extra[1]]))
+        before = Side(self.scopes[0].module(old), self.statements[0])
+        after = Side(self.scopes[1].module(new), self.statements[1])
         declared = Declared(new.name, "")
         declared.compare(old.declarations, new.declarations, before, after)
         self.take(declared)
-        for (one, other), (here, there) in zip(pairs, lists, strict=True):
-            self.routines((old, one, here), (new, other, there), before.statements, after.statements)
-        for what, routines, their in ((REMOVED, removed, extra[0]), (ADDED, added, extra[1])):
-            for routine, units in zip(routines, their, strict=True):
-                self.alone_routine(what, routine, new.name, units)
+        for one, other in pairs:
+            self.routines(old, one, new, other)
+        for what, routines in ((REMOVED, removed), (ADDED, added)):
+            for routine in routines:
+                self.alone_routine(what, routine, new.name, self.lists[id(routine)])
 
     def attributes(self, old: ir.Module, new: ir.Module, trivia: Trivia) -> None:
         here, there = dict(old.attributes), dict(new.attributes)
         for name in dict.fromkeys((*here, *there)):
             a, b = here.get(name), there.get(name)
-            if a == b or name.upper() in trivia.attributes:
+            word = name.upper().rpartition(" ")[2]  # a data list has attributes of its own: `dat ACCESS`
+            if a == b or word in trivia.attributes:
                 continue
-            kind = "comment" if name.upper() in trivia.remarks else "header"
+            kind = "comment" if word in trivia.remarks else "header"
             what = ADDED if a is None else REMOVED if b is None else CHANGED
             words = (" → ".join(f'"{one.strip()}"' for one in (a, b) if one is not None),)
             places = _attribute_spot(old, name), _attribute_spot(new, name)
@@ -131,20 +141,19 @@ class _Comparing:
         words = (f"{count} statement{'' if count == 1 else 's'}",)
         self.changes.append(Change("routine", what, routine.name, module, routine.name, a, b, words))
 
-    def routines(
-        self,
-        old: tuple[ir.Module, ir.Routine, Listing],
-        new: tuple[ir.Module, ir.Routine, Listing],
-        before: frozenset[tuple[int, int]],
-        after: frozenset[tuple[int, int]],
-    ) -> None:
-        (module, one, here), (home, other, there) = old, new
+    def routines(self, module: ir.Module, one: ir.Routine, home: ir.Module, other: ir.Routine) -> None:
+        here, there = self.lists[id(one)], self.lists[id(other)]
         scopes = self.scopes[0].routine(module, one), self.scopes[1].routine(home, other)
         if _signature(one) != _signature(other):
             places = spot(one.origin), spot(other.origin)
             self.changes.append(Change("logic", CHANGED, "", home.name, other.name, *places, ("how it is called",)))
         declared = Declared(home.name, other.name)
-        declared.compare(one.declarations, other.declarations, Side(scopes[0], before), Side(scopes[1], after))
+        declared.compare(
+            one.declarations,
+            other.declarations,
+            Side(scopes[0], self.statements[0]),
+            Side(scopes[1], self.statements[1]),
+        )
         self.take(declared)
         changes, same = compared(here, there, scopes, (home.name, other.name))
         self.changes += changes

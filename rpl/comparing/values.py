@@ -161,6 +161,8 @@ def _equal(one: bool | float | str, other: bool | float | str) -> bool:
 
 
 def _step(name: str, old: float | None, new: float | None) -> str:
+    if old is not None and new is not None and min(abs(old), abs(new)) >= _UNSET:
+        return f"{name} {old:.10g} → {new:.10g}"
     return f"{name} {_text(old)} → {_text(new)}"
 
 
