@@ -88,7 +88,7 @@ def plan(link: Link, profile: Profile, folder: Path, state_is_known: bool = Fals
         sent.append(Sent(name, path, data, present, remark))
     names = frozenset(mine)
     for one in sent:
-        against += profile.rules.complaints(one.name, one.data, profile.text_encoding, names)
+        against += profile.rules.complaints(one.name, one.data, profile.text_encoding, names, frozenset(there))
     against += profile.wrong_identity(identity)
     against += in_the_way(state, [one for one in sent if one.kind != "same"], state_is_known)
     only_there = sorted(one.name for key, one in there.items() if key not in {name.lower() for name in names})

@@ -31,7 +31,8 @@ def known_programs() -> tuple[str, ...]:
 class SendingRules:
     """programs: patterns of file names that are programs (others of a folder are left out, which is said). denied:
     patterns of names that are never written: safety parameters, configuration of inputs and outputs, system files.
-    pairs: suffix -> suffix of the file that must travel with it (first the one that is to be written first). name: what
+    pairs: suffix -> suffix of the file that must travel with it where there is one (first the one that is to be
+    written first). name: what
     a program's file may be called, as a regular expression, and `names` the same in words. flat: the controller has no
     folders. encoding: how its texts are written (a profile may say another), line_ends: `lf`, `crlf` or empty (as they
     are). binary: patterns of programs that are no texts. same(name, sent, found): is what the controller gives back
@@ -55,8 +56,11 @@ class SendingRules:
     def is_denied(self, name: str) -> bool:
         return _matches(name, self.denied)
 
-    def complaints(self, name: str, data: bytes, encoding: str, names: frozenset[str]) -> Iterator[str]:
-        """Why this file may not be sent, in whole sentences. `names`: all that are to be sent."""
+    def complaints(
+        self, name: str, data: bytes, encoding: str, names: frozenset[str], there: frozenset[str] = frozenset()
+    ) -> Iterator[str]:
+        """Why this file may not be sent, in whole sentences. `names`: all that are to be sent, `there`: those that the
+        controller has, in small letters."""
         if self.is_denied(name):
             yield f"{name}: safety, system and configuration files are never sent"
         stem = PurePosixPath(name).stem
@@ -64,8 +68,9 @@ class SendingRules:
             yield f"{name}: {stem!r} is no name for a program there: {self.names}"
         for first, second in (self.pairs or {}).items():
             other = _partner(name, first, second)
-            if other is not None and other.lower() not in {one.lower() for one in names}:
-                yield f"{name}: {other} must travel with it, and is not there"
+            missing = other is not None and other.lower() not in {one.lower() for one in names}
+            if missing and str(other).lower() in there:
+                yield f"{name}: {other} must travel with it: the controller has one, and here there is none"
         if not _matches(name, self.binary):
             yield from _unwritable(name, data, encoding)
 

@@ -207,6 +207,33 @@ class KukaLink:
         self.wire.close()
 
 
+GUIDE = "operator.txt"
+_GUIDE_TEXT = """These programs were brought to this folder; the controller does not have them yet.
+
+1. Log on at the pendant as expert, with no program selected.
+2. In the navigator, open the folder that this share is on the controller (often D:\\Transfer).
+3. Mark each module below and copy it.
+4. Open R1\\Program, paste, and answer that what is there is to be replaced.
+5. Look at the list of errors: a module with errors stays as it is, and cannot be selected.
+
+"""
+
+
+class TransferLink(FolderLink):
+    """A folder that stands for a share of the controller. What is done at the pendant then is said in a file beside."""
+
+    def files(self) -> Sequence[RemoteFile]:
+        return [one for one in super().files() if one.name != GUIDE]
+
+    def take_in(self, names: Sequence[str]) -> None:
+        listed = "\n".join(f"   {name}" for name in names)
+        self.put(GUIDE, f"{_GUIDE_TEXT}{listed}\n".replace("\n", "\r\n").encode("cp1252", "replace"))
+
+    def take_out(self, names: Sequence[str]) -> None:
+        if (self.root / GUIDE).exists():
+            self.delete(GUIDE)
+
+
 def folder_of(path: str) -> str:
     """`/KRC:/R1/Program` of a profile as the controller spells it."""
     bare = path.strip("/").replace("/", "\\")
@@ -219,7 +246,7 @@ def connect(profile: Profile) -> Link:
     if transfer:
         if not Path(transfer).is_dir():
             raise UsageError(f"{profile.name}: transfer: there is no folder {transfer}")
-        return FolderLink(Path(transfer))
+        return TransferLink(Path(transfer))
     return KukaLink(Wire(profile.host, profile.port_of("c3"), profile.patience_s), folder_of(profile.folder))
 
 

@@ -20,6 +20,7 @@ from rpl.controllers.yaskawa import hses
 from rpl.controllers.yaskawa.commands import Commands, refused
 from rpl.controllers.yaskawa.hses import Answer, PacketError, Request
 from rpl.controllers.yaskawa.loader import accepts, kept_as
+from rpl.errors import UsageError
 
 Address = tuple[str, int]
 Keep = Callable[[Request, Address, bool], Answer | None]
@@ -193,10 +194,23 @@ def word_of(why: NotDoneError) -> int:
     return int(why.said, 16) if why.why == "syntax" and why.said else _WORDS[why.why]
 
 
+def _serve_ftp(cabinet: Cabinet, endpoints: Endpoints) -> None:
+    """The controller's FTP server, whose jobs are those of the other port."""
+    try:
+        from rpl.controllers.yaskawa.ftpserver import serve_jobs
+    except ModuleNotFoundError as error:
+        if not (error.name or "").startswith("pyftpdlib"):
+            raise
+        raise UsageError("FTP needs the package pyftpdlib: pip install 'robot-rpl[ftp]'") from None
+    serve_jobs(cabinet, endpoints)
+
+
 async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
-    """Open both ports."""
+    """Open both ports; FTP beside them when a port is named for it (`--port ftp=2121`)."""
     cabinet.store.fold_names()
     cabinet.store.accepts, cabinet.store.rewrite = accepts, kept_as
     files, commands = Files(cabinet), Commands(cabinet)
+    if "ftp" in endpoints.wanted:
+        _serve_ftp(cabinet, endpoints)
     await endpoints.datagrams("files", 10041, Port(cabinet, "files", files.answer))
     await endpoints.datagrams("robot", 10040, Port(cabinet, "robot", commands.answer))

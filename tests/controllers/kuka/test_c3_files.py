@@ -10,7 +10,7 @@ import pytest
 
 from rpl.controllers.kuka import VENDOR, c3
 from rpl.controllers.kuka.c3 import Message, Reader, answer, parts_of
-from rpl.controllers.kuka.client import KukaLink, connect, folder_of
+from rpl.controllers.kuka.client import GUIDE, KukaLink, connect, folder_of
 from rpl.controllers.kuka.server import place_of
 from rpl.controllers.kuka.wire import Wire
 from rpl.controllers.link import GarbledError, LinkError, LostError, NotThereError, RefusedError
@@ -193,9 +193,23 @@ def test_what_is_the_systems_own_is_denied(name: str) -> None:
     assert not VENDOR.rules.is_denied("work.src")
 
 
+def test_a_module_without_data_is_sent_alone_unless_the_controller_has_its_data() -> None:
+    rules, alone = VENDOR.rules, frozenset({"work.src"})
+    assert list(rules.complaints("work.src", OLD, "cp1252", alone)) == []
+    (said,) = rules.complaints("work.src", OLD, "cp1252", alone, frozenset({"work.src", "work.dat"}))
+    assert "work.dat must travel with it" in said
+
+
 def test_a_folder_stands_for_the_share(tmp_path: Path) -> None:
     (tmp_path / "WORK.src").write_bytes(OLD)
     with hosted("kuka", {}) as here:
         link = connect(here.profile(tmp_path, options={"transfer": str(tmp_path)}))
         assert link.fetch("WORK.src") == OLD
+        link.put("NEXT.src", OLD)
+        link.take_in(["NEXT.src"])
+        said = (tmp_path / GUIDE).read_text(encoding="cp1252")
+        assert "pendant" in said and "NEXT.src" in said
+        assert [one.name for one in link.files()] == ["NEXT.src", "WORK.src"], "what is said to people is no program"
+        link.take_out(["NEXT.src"])
+        assert not (tmp_path / GUIDE).exists()
         assert here.cabinet.transcript.requests == []

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ftplib
+import io
 import socket
 import struct
 import time
@@ -221,3 +223,19 @@ def test_nobody_at_the_port(tmp_path: Path) -> None:
     with pytest.raises(LostError):
         connect(profile)
     assert time.monotonic() - began < 20.0
+
+
+def test_ftp_gives_the_same_jobs(tmp_path: Path) -> None:
+    pytest.importorskip("pyftpdlib", reason="the extra `ftp` is not installed")
+    with served("yaskawa", tmp_path, SAMPLES / "calculation", "--port", "ftp=0") as here:
+        line = ftplib.FTP()
+        line.connect(here.host, here.ports["ftp"], timeout=60)
+        line.login("ftp", "robot")
+        assert "CALC.JBI" in line.nlst()
+        line.storbinary("STOR WORK.JBI", io.BytesIO(OLD))
+        with pytest.raises(ftplib.error_perm):
+            line.storbinary("STOR BAD.JBI", io.BytesIO(b"hello"))
+        link = connect(here.profile(tmp_path))
+        assert VENDOR.rules.same("WORK.JBI", OLD, link.fetch("WORK.JBI"))
+        link.close()
+        line.quit()
