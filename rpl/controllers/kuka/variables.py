@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Mapping
 from pathlib import PurePosixPath
 
-from rpl.controllers.kuka.krl import spelled, structure
+from rpl.controllers.kuka.krl import read_value, spelled, structure
 from rpl.controllers.virtual.cabinet import Cabinet
 from rpl.controllers.virtual.store import NotDoneError
 from rpl.errors import UsageError
@@ -75,15 +75,37 @@ class SystemVariables:
         return shown(self._variable(wanted))
 
     def write(self, name: str, value: str) -> None:
-        """The override, an output, or nothing: inputs come from the bus. Raises VariableError."""
+        """The override, an output, or a variable of the program; inputs come from the bus. Raises VariableError."""
         wanted, text = name.strip().upper(), value.strip()
         signal = _SIGNAL.fullmatch(wanted)
         if wanted == "$OV_PRO" and text.isdigit() and int(text) <= 100:
             self.speed_percent = int(text)
         elif signal is not None and signal[1] == "OUT" and text.upper() in ("TRUE", "FALSE"):
             self.cabinet.set_signal(f"$OUT[{int(signal[2])}]", text.upper() == "TRUE")
-        else:
+        elif signal is not None or wanted in self.known:
             raise VariableError(name)
+        else:
+            self._assign(wanted, text)
+
+    def _assign(self, name: str, text: str) -> None:
+        """Numbers, truth values, texts and members, and numbers of a structure (`NAME.X`)."""
+        found = re.fullmatch(r"([\w$]+)(?:\[\s*\])?(?:\.(\w+))?", name)
+        if found is None:
+            raise VariableError(name)
+        part = found[2].lower() if found[2] else None
+
+        def changed(old: Value) -> Value:
+            if part is None:
+                return _like(old, text)
+            inner = f"j{part[1:]}" if isinstance(old, JointsValue) and part[0] == "a" else part
+            if not isinstance(old, JointsValue | TargetValue | PoseValue):
+                raise VariableError(name)
+            return old.replaced(inner, _like(0.0, text))
+
+        try:
+            self.cabinet.set_variable(found[1], changed)
+        except (NotDoneError, UsageError, ValueError):
+            raise VariableError(name) from None
 
     def _variable(self, name: str) -> Value:
         """A variable of the program, or a part of one: `NAME[2].X`."""
@@ -136,6 +158,23 @@ class SystemVariables:
             a, c = math.atan2(flange[1, 0], flange[0, 0]), math.atan2(flange[2, 1], flange[2, 2])
         parts |= dict(zip("ABC", map(math.degrees, (a, b, c)), strict=True))
         return structure("E6POS", parts | {f"E{number}": 0.0 for number in range(1, 7)})
+
+
+def _like(old: Value, text: str) -> Value:
+    """What a text says, as a value of the kind of the present one. Raises VariableError."""
+    said = read_value(text)
+    if isinstance(old, Member) and text.startswith("#"):
+        return Member(text[1:].lower())
+    if isinstance(old, bool) or isinstance(said, bool):
+        if isinstance(old, bool) and isinstance(said, bool):
+            return said
+    elif isinstance(old, int) and isinstance(said, int):
+        return said
+    elif isinstance(old, float) and isinstance(said, int | float):
+        return float(said)
+    elif isinstance(old, str) and not isinstance(old, Member) and text.startswith('"'):
+        return said
+    raise VariableError(text)
 
 
 def _part(value: Value, index: str | None, name: str | None) -> Value:

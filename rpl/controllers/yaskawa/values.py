@@ -84,18 +84,23 @@ class Values:
         return struct.pack(layout.format, float(value) if command == hses.REAL else int(value))
 
     def write(self, command: int, number: int, data: bytes) -> None:
-        """What the selected program works with is not written from outside. Raises CommandError."""
+        """Positions that the selected program works with are not written from outside. Raises CommandError."""
         layout = LAYOUTS[command]
         if number >= MOST.get(command, _USUAL_MOST):
             raise CommandError(0xA001)
         if len(data) < layout.size:
             raise CommandError(0xB003)
+        part = data[: layout.size]
+        found = struct.unpack(layout.format, part)[0]
+        value = found.split(b"\x00")[0].decode("latin-1") if command == hses.TEXT else found
+        name = f"{layout.letter}{number:03d}"
         try:
-            self.cabinet.variable(f"{layout.letter}{number:03d}")
+            if command == hses.PLACE:
+                self.cabinet.variable(name)
+                raise CommandError(0x2110)
+            self.cabinet.set_variable(name, lambda _: value)
         except (NotDoneError, UsageError):
-            self.kept[command, number] = data[: layout.size]
-        else:
-            raise CommandError(0x2110)
+            self.kept[command, number] = part  # no program names it
 
     def _place(self, value: Value) -> list[int]:
         """A position: pulses of the axes, or micrometres and ten thousandths of a degree."""

@@ -76,6 +76,12 @@ def test_a_program_is_selected_and_runs(here: Hosted, wire: Wire) -> None:
     assert wire.value("COUNT") == "3"
     assert read_structure(wire.value("XPLACE"))["X"] == 1.5
     assert wire.value("XPLACE.B") == "90.00000"
+    write(wire, "NUMBER", "7")
+    write(wire, "XPLACE.X", "2.5")
+    assert (wire.value("NUMBER"), wire.value("XPLACE.X")) == ("7", "2.50000")
+    for value in ("TRUE", '"A"', "1.5"):
+        with pytest.raises(RefusedError):
+            write(wire, "NUMBER", value)
     state = Variables(wire).state()
     assert (state.running, state.program, state.selected, state.line) == (True, "WORK", ("WORK",), 6)
     here.cabinet.set_signal("$IN[2]", True)

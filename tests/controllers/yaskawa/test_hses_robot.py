@@ -100,6 +100,9 @@ def test_a_job_is_selected_and_runs(here: Hosted, robot: Robot) -> None:
     assert order(robot, hses.START, 1, ON) == 0x2010
     assert (robot.variable("B", 2), robot.variable("I", 3), robot.variable("D", 1)) == (7, -5, 70000)
     assert (robot.variable("R", 1), robot.variable("S", 1)) == (1.5, "HELLO")
+    assert order(robot, hses.BYTE, 2, b"\x08") == 0
+    assert robot.variable("B", 2) == 8
+    assert order(robot, hses.PLACE, 3, bytes(52), 0, hses.SET_ALL) == 0x2110
     assert robot.signals("OUT", 1, 4) == {"OUT1": False, "OUT2": False, "OUT3": True, "OUT4": False}
     assert robot.variable("P", 3) == (13414.0, *[0.0] * 7)
     assert robot.pulses() == (13414.0, *[0.0] * 7)
