@@ -43,17 +43,18 @@ class Pushed:
                 gathered += piece.decode("utf-8", "replace")
                 programs, gathered = whole_programs(gathered)
                 for text in programs:
-                    self._run(port, text)
+                    await self._run(port, text)
                 if len(gathered) > _LONGEST:
                     return
         finally:
             self.listening[port].remove(writer)
 
-    def _run(self, port: str, text: str) -> None:
+    async def _run(self, port: str, text: str) -> None:
+        """Long texts take a second to be read: values go on being told meanwhile."""
         cabinet = self.panel.cabinet
         cabinet.told(port, "start", text)
         try:
-            self.panel.run_text(text.encode())
+            await asyncio.to_thread(self.panel.run_text, text.encode())
         except NotDoneError as error:
             cabinet.messages.append(f"{port}: {error.said or error.why}")
         cabinet.after()

@@ -130,12 +130,13 @@ class Cabinet:
         return self.select_sources(sources, entry)
 
     def select_sources(self, sources: Sequence[Source], entry: str | None = None) -> list[Diagnostic]:
-        """The same for texts that are no files of the controller."""
+        """The same for texts that are no files of the controller. They are read before anything is held: in another
+        thread, the controller goes on answering meanwhile."""
+        read, diagnostics = self._read_sources(sources)
+        if diagnostics.has_errors:
+            return list(diagnostics.of(Severity.ERROR))
+        simulation = Simulation(read.program, self.model, None, entry, on_event=self._happened, limits=_ENDLESS)
         with self.lock:
-            read, diagnostics = self._read_sources(sources)
-            if diagnostics.has_errors:
-                return list(diagnostics.of(Severity.ERROR))
-            simulation = Simulation(read.program, self.model, None, entry, on_event=self._happened, limits=_ENDLESS)
             for name, value in self._signals.items():
                 simulation.set_input(name, value)
             self._keep_data(simulation)
