@@ -179,17 +179,24 @@ def _driven(side: _Noting, start: Start, cell: Cell, cells: int, remarks: dict[K
     remarks.update(found.remarks[0])
     runs = [result.reached for _, result in side.noted]
     reach = reach_of(side.program, runs, start.name, found.remarks[0], found.one_way[0], start.routines)
-    return Driven(start.name, reach, found.tried + 1, found.ended, tuple(_endings(side.noted)))
+    return Driven(
+        start.name,
+        reach,
+        found.tried + 1,
+        found.ended,
+        tuple(_endings(side.noted, _MISSING if side.robot else _MISSING | {"motion"})),
+    )
 
 
-def _endings(noted: Sequence[tuple[Cell, RunResult]]) -> list[Ending]:
-    """Each place where runs ended early, with the first cell that led there."""
+def _endings(noted: Sequence[tuple[Cell, RunResult]], missing: Collection[str]) -> list[Ending]:
+    """Each place where runs ended early, with the first cell that led there. missing: codes of faults that say what is
+    not there (without an arm that is what asks for one)."""
     found: dict[tuple[str, str, Place], Ending] = {}
     for cell, result in noted:
         fault = result.fault
         if fault is None or result.status == "limit":
             continue
-        kind = "waits" if result.status == "deadlock" else "missing" if fault.code in _MISSING else "fault"
+        kind = "waits" if result.status == "deadlock" else "missing" if fault.code in missing else "fault"
         place = place_of(fault.origin)
         key = (kind, fault.code, place)
         if key not in found:

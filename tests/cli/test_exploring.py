@@ -62,10 +62,12 @@ def test_the_same_for_people_and_the_same_again(tmp_path: Path, capsys: pytest.C
         ("WAIT FOR $IN[1]", 3),  # nothing but the input ends the wait
         ("IF FALSE THEN\n$OUT[1]=TRUE\nENDIF", 3),  # nobody comes there
         ("away()", 3),  # a routine that is not there
+        ("XP=$AXIS_ACT", 3),  # an arm that is not named
+        ("XP={A1 1/0}", 1),
     ],
 )
 def test_exit_status(tmp_path: Path, body: str, status: int) -> None:
-    (tmp_path / "main.src").write_text(f"DEF main()\n{body}\nEND\n")
+    (tmp_path / "main.src").write_text(f"DEF main()\nE6AXIS XP\n{body}\nEND\n")
     assert run(["run", str(tmp_path), "--explore"]) == status
 
 
