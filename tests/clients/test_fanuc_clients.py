@@ -1,4 +1,4 @@
-"""fanuc-ucl (SNPX, RMI, Stream Motion) and aioftp, unchanged, against `rpl serve fanuc`."""
+"""fanuc-ucl (SNPX, RMI, Stream Motion), fanucpy (MAPPDK) and aioftp, unchanged, against `rpl serve fanuc`."""
 
 from __future__ import annotations
 
@@ -94,6 +94,27 @@ driver.disconnect()
 print(json.dumps({"sent": len(setpoints)}))
 """
 
+DRIVER = """
+import json, sys
+from fanucpy import Robot
+
+robot = Robot("Fanuc", sys.argv[1], int(sys.argv[2]), ee_DO_type="RDO", ee_DO_num=7)
+robot.connect()
+robot.move("joint", vals=[10.0, 5.0, -5.0, 0.0, -60.0, 20.0], velocity=50, acceleration=100, cnt_val=0)
+seen = {"joints": robot.get_curjpos()}
+pose = robot.get_curpos()
+pose[2] += 10.0
+robot.move("pose", vals=pose, velocity=100, acceleration=100, cnt_val=0, linear=True)
+seen["up"] = [round(a - b, 2) for a, b in zip(robot.get_curpos(), pose)]
+robot.gripper(True)
+seen["gripper"] = robot.get_rdo(7)
+robot.set_dout(2, True)
+seen["outputs"] = [robot.get_dout(2), robot.get_dout(3)]
+seen["power"] = robot.get_ins_power()
+robot.disconnect()
+print(json.dumps(seen))
+"""
+
 FILES = """
 import asyncio, json, sys
 import aioftp
@@ -159,6 +180,13 @@ def test_fanuc_ucl_moves_the_robot_by_remote_motion(
 def test_fanuc_ucl_streams_setpoints(client_environment: ClientEnvironment, ports: dict[str, int]) -> None:
     seen = run_client(client_environment("fanuc-ucl", ["fanuc-ucl==2.0.2"]), STREAMING, HOST)
     assert seen == {"sent": 100}
+
+
+def test_fanucpy_drives_the_robot(client_environment: ClientEnvironment, ports: dict[str, int]) -> None:
+    seen = run_client(client_environment("fanucpy", ["fanucpy==0.1.14"]), DRIVER, HOST, ports["mappdk"])
+    assert seen["joints"] == pytest.approx([10.0, 5.0, -5.0, 0.0, -60.0, 20.0], abs=1e-3)
+    assert seen["up"] == pytest.approx([0.0] * 6, abs=0.02)
+    assert (seen["gripper"], seen["outputs"], seen["power"]) == (1, [1, 0], 0.0)
 
 
 def test_aioftp_carries_programs(client_environment: ClientEnvironment, ports: dict[str, int]) -> None:

@@ -175,21 +175,22 @@ class Remote:
         elif name == "FRC_SetUTool":
             self.tool = int(packet["ToolNumber"])
         elif name != "FRC_SetPayLoad":
-            await self._run(_lines(name, packet, self.frame, self.tool))
+            await carried_out(self.cabinet, PROGRAM, _lines(name, packet, self.frame, self.tool))
         return {}
 
-    async def _run(self, listing: str) -> None:
-        """Carry out a program of one instruction, from where the robot stands."""
-        self.cabinet.store.put([(f"{PROGRAM}.LS", listing.encode("latin-1"))])
-        if self.cabinet.select([f"{PROGRAM}.LS"]):
-            raise NotDoneError("syntax", listing)
-        before = len(self.cabinet.messages)
-        self.cabinet.start()
-        while self.cabinet.phase != "stopped":
-            await asyncio.sleep(_LOOK_S)
-            self.cabinet.advance()
-        if len(self.cabinet.messages) > before:
-            raise NotDoneError("emergency-stop", self.cabinet.messages[-1])
+
+async def carried_out(cabinet: Cabinet, program: str, listing: str) -> None:
+    """Run a program of one instruction, from where the robot stands, to its end. Raises NotDoneError."""
+    cabinet.store.put([(f"{program}.LS", listing.encode("latin-1"))])
+    if cabinet.select([f"{program}.LS"]):
+        raise NotDoneError("syntax", listing)
+    before = len(cabinet.messages)
+    cabinet.start()
+    while cabinet.phase != "stopped":
+        await asyncio.sleep(_LOOK_S)
+        cabinet.advance()
+    if len(cabinet.messages) > before:
+        raise NotDoneError("emergency-stop", cabinet.messages[-1])
 
 
 def _has(packet: object, word: str) -> bool:
@@ -204,17 +205,17 @@ def _tag() -> int:
 def _lines(name: str, packet: Packet, frame: int, tool: int) -> str:
     """The listing of an instruction. Raises KeyError, ValueError."""
     if name == "FRC_WaitTime":
-        return _listing(f"WAIT {float(packet['Time']):.2f}(sec)", "")
+        return listing_of(f"WAIT {float(packet['Time']):.2f}(sec)", "")
     if name == "FRC_WaitDIN":
         value = "ON" if packet["PortValue"] in ("ON", 1) else "OFF"
-        return _listing(f"WAIT DI[{int(packet['PortNumber'])}]={value}", "")
+        return listing_of(f"WAIT DI[{int(packet['PortNumber'])}]={value}", "")
     if name == "FRC_Call":
-        return _listing(f"CALL {packet['ProgramName']}", "")
+        return listing_of(f"CALL {packet['ProgramName']}", "")
     letter = {"FRC_JointMotion": "J", "FRC_LinearMotion": "L"}[name.removesuffix("JRep")]
     term = str(packet["TermType"])
     ending = term if term == "FINE" else f"CNT{int(packet.get('TermValue', 100))}"
     move = f"{letter} P[1] {_speed(packet, letter)} {ending}"
-    return _listing(f"UFRAME_NUM={frame} ;\n   2:  UTOOL_NUM={tool} ;\n   3:{move}", _target(packet, frame, tool))
+    return listing_of(f"UFRAME_NUM={frame} ;\n   2:  UTOOL_NUM={tool} ;\n   3:{move}", target_text(packet, frame, tool))
 
 
 def _speed(packet: Packet, letter: str) -> str:
@@ -229,7 +230,8 @@ def _speed(packet: Packet, letter: str) -> str:
     return f"{int(value)}{'%' if letter == 'J' else 'mm/sec'}"
 
 
-def _target(packet: Packet, frame: int, tool: int) -> str:
+def target_text(packet: Packet, frame: int, tool: int) -> str:
+    """P[1] of a listing, of joints or of a place."""
     if "JointAngle" in packet:
         values = packet["JointAngle"]
         body = ",\n".join(f"\tJ{number}= {float(values[f'J{number}']):.4f} deg" for number in range(1, 7))
@@ -248,8 +250,9 @@ def _target(packet: Packet, frame: int, tool: int) -> str:
     return f"P[1]{{\n   GP1:\n\tUF : {frame}, UT : {tool}, {config},\n{body}\n}};\n"
 
 
-def _listing(body: str, places: str) -> str:
-    head = f"/PROG  {PROGRAM}\n/ATTR\nPROTECT = READ_WRITE;\nDEFAULT_GROUP = 1,*,*,*,*;\n"
+def listing_of(body: str, places: str, program: str = PROGRAM) -> str:
+    """A program of this instruction (the first line of several) and these positions."""
+    head = f"/PROG  {program}\n/ATTR\nPROTECT = READ_WRITE;\nDEFAULT_GROUP = 1,*,*,*,*;\n"
     return f"{head}/MN\n   1:  {body} ;\n/POS\n{places}/END\n"
 
 

@@ -1,7 +1,8 @@
-"""A virtual FANUC controller: FTP over its memory, the panel interface, remote motion, Stream Motion."""
+"""A virtual FANUC controller: FTP over its memory, the panel interface, remote motion, Stream Motion, MAPPDK."""
 
 from __future__ import annotations
 
+from rpl.controllers.fanuc.driver import Driver
 from rpl.controllers.fanuc.memory import Memory, rewritten
 from rpl.controllers.fanuc.motion import start_remote
 from rpl.controllers.fanuc.panel import Panel, Values
@@ -27,3 +28,4 @@ async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
     await endpoints.stream("snpx", 60008, lambda reader, writer: Panel(values).serve(reader, writer))
     await start_remote(cabinet, endpoints, values)
     await start_streaming(endpoints, values)
+    await endpoints.stream("mappdk", 18735, lambda reader, writer: Driver(values).serve(reader, writer))

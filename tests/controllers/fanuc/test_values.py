@@ -161,6 +161,33 @@ def test_stream_motion_tells_its_state_and_takes_joints(fanuc: Served) -> None:
     peer.close()
 
 
+def test_the_users_driver_moves_and_tells_where_the_robot_is(fanuc: Served) -> None:
+    peer = socket.create_connection((fanuc.host, fanuc.ports["mappdk"]), PATIENCE_S)
+
+    def ask(line: str) -> str:
+        peer.sendall(f"{line}\n".encode())
+        return peer.recv(1024).decode()
+
+    assert peer.recv(1024) == b"0:success"
+    joints = (12.0, 5.0, -5.0, 0.0, -60.0, 20.0)
+    moved = ":".join(f"{value:+014.6f}" for value in joints)
+    assert ask(f"movej:0050:0100:000:0:6:{moved}") == "0:success"
+    code, found = ask("curjpos").split(":")
+    assert code == "0"
+    assert [float(each.split("=")[1]) for each in found.split(",")] == pytest.approx(joints, abs=1e-3)
+    place = [float(each.split("=")[1]) for each in ask("curpos").split(":")[1].split(",")]
+    place[2] += 10.0
+    moved = ":".join(f"{value:+014.6f}" for value in place)
+    assert ask(f"movep:0100:0100:000:1:6:{moved}") == "0:success"
+    again = [float(each.split("=")[1]) for each in ask("curpos").split(":")[1].split(",")]
+    assert again == pytest.approx(place, abs=0.01)
+    far = ":".join(f"{value:+014.6f}" for value in (9000.0, *place[1:]))
+    assert ask(f"movep:0100:0100:000:1:6:{far}").startswith("1:")
+    assert [ask("setdout:00004:true"), ask("getdout:00004"), ask("getdout:00005")] == ["0:success", "0:1", "0:0"]
+    assert ask("nonsense").startswith("1:")
+    peer.close()
+
+
 HOSTILE = {
     "noise": bytes(range(256)) * 4,
     "an answer of 64 kB": bytes([1, 0, 0, 0, 255, 255]) + bytes(300),
