@@ -149,7 +149,10 @@ class Session:
         except LinkError:
             self.close()
             raise
-        except (ConnectionError, TimeoutError, http.client.IncompleteRead, ssl.SSLError) as error:
+        except TimeoutError:
+            self.close()
+            raise LostError(f"{self.profile.name}: no answer came in time") from None
+        except (ConnectionError, http.client.IncompleteRead, ssl.SSLError) as error:
             self.close()
             raise LostError(f"{self.profile.name}: the connection is lost: {error or 'it was closed'}") from None
         except http.client.HTTPException:
