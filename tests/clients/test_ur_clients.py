@@ -102,20 +102,28 @@ print(json.dumps(said))
 """
 
 CONTROL = """
-import json, sys
+import json, sys, time
 import rtde_control, rtde_receive
+
+def there():  # values of another connection come a moment later
+    time.sleep(0.5)
+    return r.getActualTCPPose()
 
 c = rtde_control.RTDEControlInterface(sys.argv[1])
 r = rtde_receive.RTDEReceiveInterface(sys.argv[1])
 said = {"running": c.isProgramRunning(), "before": r.getActualQ()}
 goal = [0.3] + r.getActualQ()[1:]
-said["moveJ"], said["goal"], said["joints"] = c.moveJ(goal, 2.0, 4.0), goal, r.getActualQ()
-pose = r.getActualTCPPose()
+said["moveJ"], said["goal"], said["joints"] = c.moveJ(goal, 2.0, 4.0), goal, there() and r.getActualQ()
+pose = there()
 lower = pose[:2] + [pose[2] - 0.05] + pose[3:]
 said["ik"] = c.getInverseKinematics(lower)
-said["moveL"], said["lower"], said["pose"] = c.moveL(lower, 0.5, 1.0), lower, r.getActualTCPPose()
-said["moveJ_IK"], said["upper"], said["back"] = c.moveJ_IK(pose, 2.0, 4.0), pose, r.getActualTCPPose()
+said["moveL"], said["lower"], said["pose"] = c.moveL(lower, 0.5, 1.0), lower, there()
+said["moveJ_IK"], said["upper"], said["back"] = c.moveJ_IK(pose, 2.0, 4.0), pose, there()
+said["path"] = c.moveL([lower + [0.5, 1.0, 0.0], pose + [0.5, 1.0, 0.0]])
+said["end"] = there()
 said["settings"] = [c.setPayload(1.0, [0.0, 0.0, 0.01]), c.setTcp([0.0, 0.0, 0.1, 0.0, 0.0, 0.0])]
+c.stopScript()
+said["after"] = c.isProgramRunning()
 print(json.dumps(said))
 """
 
@@ -173,10 +181,12 @@ def test_ur_rtde_sends_a_script_that_runs(
 
 def test_the_control_script_of_ur_rtde_is_run_by_our_interpreter(controller: Path, ur_rtde: Path) -> None:
     said = run_client(ur_rtde, CONTROL, HOST)
-    assert said["running"] and said["moveJ"] and said["moveL"] and said["moveJ_IK"]
+    assert said["running"] and said["moveJ"] and said["moveL"] and said["moveJ_IK"] and said["path"]
     assert said["joints"] == pytest.approx(said["goal"], abs=1e-5)
     assert said["pose"][:3] == pytest.approx(said["lower"][:3], abs=1e-5)
     assert said["back"][:3] == pytest.approx(said["upper"][:3], abs=1e-5)
+    assert said["end"][:3] == pytest.approx(said["upper"][:3], abs=1e-5)
+    assert not said["after"]
     assert len(said["ik"]) == 6 and said["settings"] == [True, True]
     started = [
         one for line in controller.read_text("utf-8").splitlines() if (one := json.loads(line))["kind"] == "start"

@@ -72,10 +72,15 @@ class Rtde:
             self.clients.remove(client)
 
     def _set(self, client: Client, payload: bytes) -> None:
+        """What is too short for its recipe is passed by, and what is longer is cut: ur-rtde 1.6.5 asks for forward
+        kinematics with a tool by more values than the recipe has."""
         number = payload[0] if payload else 0
         if not 0 < number <= len(client.inputs):
             return
-        values = client.inputs[number - 1].unpacked(payload)
+        recipe = client.inputs[number - 1]
+        if len(payload) < recipe.packing.size:
+            return
+        values = recipe.unpacked(payload[: recipe.packing.size])
         said = " ".join(f"{name}={value}" for name, value in values.items())
         self.panel.cabinet.told("rtde", "set", said, counts=False)
         apply(self.panel, values)
