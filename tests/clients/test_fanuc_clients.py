@@ -192,4 +192,4 @@ def test_fanucpy_drives_the_robot(client_environment: ClientEnvironment, ports: 
 def test_aioftp_carries_programs(client_environment: ClientEnvironment, ports: dict[str, int]) -> None:
     seen = run_client(client_environment("aioftp", ["aioftp==0.28.3"]), FILES, HOST, ports["ftp"])
     assert seen["same"] is True
-    assert seen["read"] == len((SAMPLE / "pick.ls").read_bytes())
+    assert seen["read"] == len((SAMPLE / "pick.ls").read_bytes().replace(b"\n", b"\r\n"))

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import PurePosixPath
 
-from rpl.controllers.fanuc import reports, snpx
+from rpl.controllers.fanuc import LOGS, reports, snpx
 from rpl.controllers.ftp.channel import Channel
 from rpl.controllers.ftp.client import FtpLink, channel_of, folder_of
 from rpl.controllers.link import Identity, LoginError, LostError, RefusedError, RemoteFile, State
@@ -41,8 +41,9 @@ class FanucLink(FtpLink):
         self._identity: Identity | None = None
 
     def files(self) -> Sequence[RemoteFile]:
-        """Names only: what MD: lists is made when it is read, and has no size before."""
-        return sorted(self._names(), key=lambda one: one.name)
+        """Names only: what MD: lists is made when it is read, and has no size before. Logs are left out: they look like
+        programs and cannot be sent back."""
+        return sorted((one for one in self._names() if one.name.lower() not in LOGS), key=lambda one: one.name)
 
     def report(self, name: str) -> str:
         """A report as text; empty where the controller does not make it."""

@@ -157,6 +157,11 @@ _MODIFIED = re.compile(rb"^(MODIFIED[ \t]*=[ \t]*)DATE[^;\r\n]*", re.MULTILINE)
 _LINE = re.compile(rb"^[ \t]*\d*:", re.MULTILINE)
 
 
+def as_kept(data: bytes) -> bytes:
+    """A listing with the line ends that controllers have."""
+    return data.replace(b"\r\n", b"\n").replace(b"\n", b"\r\n") if is_listing(data) else data
+
+
 def rewritten(name: str, data: bytes) -> bytes:
     """A listing as the controller gives it back: its own sizes, dates and line numbers, lines that end with CR LF."""
     if not is_listing(data):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl.controllers.fanuc.driver import Driver
-from rpl.controllers.fanuc.memory import Memory, rewritten
+from rpl.controllers.fanuc.memory import Memory, as_kept, rewritten
 from rpl.controllers.fanuc.motion import start_remote
 from rpl.controllers.fanuc.panel import Panel, Values
 from rpl.controllers.fanuc.streaming import start_streaming
@@ -16,6 +16,7 @@ async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
     """Open all interfaces. Raises UsageError when a port cannot be had, or the extra [ftp] is not installed."""
     memory = Memory(cabinet)
     cabinet.store.fold_names()
+    cabinet.store.put([(name, as_kept(cabinet.store.kept(name))) for name in cabinet.store.names() if ".." not in name])
     cabinet.store.may_write, cabinet.store.accepts, cabinet.store.rewrite = memory.may_write, memory.loads, rewritten
     try:
         from rpl.controllers.ftp.server import serve_files

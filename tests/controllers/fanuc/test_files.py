@@ -31,7 +31,8 @@ def test_programs_are_listed_in_capitals_and_given_back_as_they_are(fanuc: Serve
     link = connect(fanuc.profile(tmp_path))
     names = [one.name for one in link.files()]
     assert {"PALLETISER.LS", "PLACE.LS", "SYSFRAME.VA", "PRGSTATE.DG"} <= set(names)
-    assert link.fetch("place.ls") == (SAMPLES / "palletiser/place.ls").read_bytes()
+    assert link.fetch("place.ls") == (SAMPLES / "palletiser/place.ls").read_bytes().replace(b"\n", b"\r\n")
+    assert "ERRALL.LS" not in names
     link.close()
 
 
