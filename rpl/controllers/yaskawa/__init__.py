@@ -4,7 +4,9 @@ What is known of it, and from where: the layout of all packets, the commands and
 the manual 160766-1CD (FS100 options, instructions for High-Speed Ethernet Server function) as the MIT sources of
 moto-hses and of hsinkoyu/fs100 give it; controllers of the lines DX200 and YRC1000 are said to speak the same. Names of
 jobs (32 characters, 8 on controllers before the DX100) and what of a job's head the controller writes anew are general
-knowledge that no manual was at hand for. Nobody has tried this on a controller of iron.
+knowledge that no manual was at hand for. Nobody has tried this on a controller of iron; hsinkoyu/fs100 passes against
+the virtual one (files, status, position, jobs, variables one by one and several at once; tried by hand, because it is
+not to be had from PyPI), but for torque, position error, alarm history and management time, which it does not have.
 """
 
 import re

@@ -49,6 +49,7 @@ class Commands:
             hses.ALARM: self._alarm,
             hses.STATUS: self._status,
             hses.JOB: self._job,
+            hses.AXES: self._axes,
             hses.POSITION: self._position,
             hses.SYSTEM: self._system,
             hses.SERVO: self._servo,
@@ -113,6 +114,14 @@ class Commands:
                 line, step = place_in_job(self.cabinet.store.kept(f"{name}.JBI"), at)
         parts = [name.encode(ENCODING, "replace")[:32].ljust(32, b"\x00")]
         return _element(request, parts + [struct.pack("<I", number) for number in (line, step, 10000)])
+
+    def _axes(self, request: Request) -> bytes:
+        """What the axes are called, for pulses and for the base."""
+        if request.instance not in (1, 101):
+            raise CommandError(0xA001)
+        joints = self.cabinet.model.axes if self.cabinet.model is not None else 0
+        names = ["S", "L", "U", "R", "B", "T"][:joints] if request.instance == 1 else ["X", "Y", "Z", "Rx", "Ry", "Rz"]
+        return _element(request, [name.encode().ljust(4, b"\x00") for name in [*names, *[""] * (_AXES - len(names))]])
 
     def _position(self, request: Request) -> bytes:
         """Pulses of the axes, or the flange in the base: micrometres and ten thousandths of a degree."""

@@ -165,6 +165,11 @@ def test_a_command_that_nobody_knows_is_refused(robot: Robot) -> None:
     assert robot.line.ask(request).status == hses.NO_SUCH_COMMAND
 
 
+def test_axes_have_names(robot: Robot) -> None:
+    assert robot.asked(hses.AXES, 1)[:8] == b"S\x00\x00\x00L\x00\x00\x00"
+    assert robot.asked(hses.AXES, 101, 4, hses.GET_ONE) == b"Rx\x00\x00"
+
+
 def test_lines_are_counted_from_nop() -> None:
     nop = JOB.split(b"\r\n").index(b"NOP") + 1
     assert place_in_job(JOB, nop) == (0, 0)
