@@ -183,10 +183,10 @@ def options() -> set[str]:
 
 
 def test_options_of_the_pages_exist_and_every_option_has_its_place() -> None:
-    """`--write`, `--lines` and `--into` belong to benchmarks, `--global`, `--ext-diff` and `--no-ext-diff` to Git."""
+    """Some belong to benchmarks (`--write`, `--lines`, `--into`, `--csv`), some to Git."""
     texts = "\n".join(page.read_text("utf-8") for page in PAGES)
     told = set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", texts))
     here = options()
-    others = {"--write", "--lines", "--into", "--global", "--ext-diff", "--no-ext-diff"}
+    others = {"--write", "--lines", "--into", "--csv", "--global", "--ext-diff", "--no-ext-diff"}
     assert told - here - others == set()
     assert here - told == set()
