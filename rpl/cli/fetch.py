@@ -9,6 +9,7 @@ import click
 from rpl.cli.controllers import config_option, connection, files_shown, named
 from rpl.cli.files import force_option, write_files
 from rpl.cli.output import json_option, print_json, say
+from rpl.showing import counted
 
 
 @click.command("fetch")
@@ -66,7 +67,7 @@ def command(name: str, folder: Path, everything: bool, config: Path | None, as_j
             }
         )
     else:
-        say(f"fetched {len(got)} files from {profile.name} to {folder}")
+        say(f"fetched {counted(len(got), 'file')} from {profile.name} to {folder}")
     for name_there, reason in missing.items():
         say(f"rpl: {name_there}: {reason}", err=True)
     if lost is not None:

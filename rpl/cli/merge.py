@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 @click.argument("base")
 @click.argument("a", metavar="OURS")
 @click.argument("b", metavar="THEIRS")
-@click.option("-o", "--out", metavar="OUT", help="File or folder to write; OURS may be written over.")
+@click.option("-o", "--output", "out", metavar="OUT", help="File or folder to write; OURS may be written over.")
 @click.option(
     "--path", "name", metavar="P", help="What the file is called in the project, when its own name does not say."
 )

@@ -10,6 +10,7 @@ import click
 from rpl.cli.controllers import config_option, connect, connection, named
 from rpl.cli.output import json_option, print_json, say
 from rpl.errors import UsageError
+from rpl.showing import counted
 
 if TYPE_CHECKING:
     from rpl.controllers.planning import Plan
@@ -116,11 +117,11 @@ def _told(profile: Profile, outcome: Outcome, planned: Plan | None, as_json: boo
         return 0
     for remark in outcome.remarks:
         say(f"rpl: {remark}", err=True)
-    count = len(journal.items)
+    count = counted(len(journal.items), "file")
     if journal.step == "done":
-        say(f"sent {count} files to {profile.name}, read back and compared; the backup is in {journal.folder}")
+        say(f"sent {count} to {profile.name}, read back and compared; the backup is in {journal.folder}")
     else:
-        say(f"{profile.name} holds the {count} files of {journal.folder}/old again, read back and compared")
+        say(f"{profile.name} holds {count} of {journal.folder}/old again, read back and compared")
     return 0
 
 

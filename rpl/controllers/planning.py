@@ -36,8 +36,9 @@ class Sent:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """`files` in the order of writing; left_out: files of the folder that are no programs; only_there: programs of the
-    controller that stay; against: what speaks against the transfer, in whole sentences."""
+    """`files` in the order of writing; left_out: files of the folder that are not sent, with the reason; only_there:
+    programs of the controller that stay; against: what speaks against the transfer, in whole sentences; errors: what
+    our own reader finds wrong in the programs, which may still be good for the controller."""
 
     identity: Identity
     state: State
@@ -46,6 +47,7 @@ class Plan:
     only_there: tuple[str, ...]
     against: tuple[str, ...]
     changes: tuple[str, ...] = ()
+    errors: tuple[str, ...] = ()
 
     @property
     def to_write(self) -> tuple[Sent, ...]:
@@ -63,6 +65,7 @@ class Plan:
             "only_there": list(self.only_there),
             "against": list(self.against),
             "changes": list(self.changes),
+            "errors": list(self.errors),
         }
 
     def lines(self) -> Iterator[str]:
@@ -70,9 +73,10 @@ class Plan:
         for one in self.files:
             remark = f" ({one.remark})" if one.remark else ""
             yield f"{one.kind:<10} {one.name}, {counted(len(one.data), 'byte')}{remark}"
-        yield from (f"left out   {name}: no program for this controller" for name in self.left_out)
+        yield from (f"left out   {text}" for text in self.left_out)
         yield from (f"stays      {name}: only there" for name in self.only_there)
         yield from self.changes
+        yield from (f"look at    {text}" for text in self.errors)
 
 
 def plan(link: Link, profile: Profile, folder: Path, state_is_known: bool = False) -> Plan:
@@ -92,15 +96,8 @@ def plan(link: Link, profile: Profile, folder: Path, state_is_known: bool = Fals
     against += profile.wrong_identity(identity)
     against += in_the_way(state, [one for one in sent if one.kind != "same"], state_is_known)
     only_there = sorted(one.name for key, one in there.items() if key not in {name.lower() for name in names})
-    return Plan(
-        identity,
-        state,
-        tuple(sent),
-        tuple(left_out),
-        tuple(only_there),
-        tuple(against),
-        tuple(changes_of(sent, profile)),
-    )
+    changes, errors = tuple(changes_of(sent, profile)), tuple(errors_in(sent))
+    return Plan(identity, state, tuple(sent), tuple(left_out), tuple(only_there), tuple(against), changes, errors)
 
 
 def _present(link: Link, name: str) -> bytes | None:
@@ -122,8 +119,11 @@ def _files_of(folder: Path, profile: Profile) -> tuple[dict[str, tuple[Path, byt
             continue  # what commands of this package, or git, keep beside programs
         rules = profile.rules
         name = below.name if rules.flat else below.as_posix()
-        if not rules.is_program(name) and not rules.is_denied(name):
-            left_out.append(below.as_posix())
+        if rules.is_denied(name):
+            left_out.append(f"{below.as_posix()}: safety, system and configuration files are never sent")
+            continue
+        if not rules.is_program(name):
+            left_out.append(f"{below.as_posix()}: no program for this controller")
             continue
         twin = next((other for other in found if other.lower() == name.lower()), None)
         if twin is not None:
@@ -181,6 +181,18 @@ def changes_of(files: Sequence[Sent], profile: Profile) -> Iterator[str]:
         yield from lines(differences(old, new), Shown(lambda text, what: text, True))
     else:
         yield from _by_line(both, profile)
+
+
+def errors_in(files: Sequence[Sent]) -> Iterator[str]:
+    """What our own reader finds wrong in the programs, the worst first."""
+    from rpl.diagnostics import Diagnostics, Severity
+    from rpl.grouping import told
+    from rpl.project import read_program
+
+    diagnostics = Diagnostics()
+    read = read_program([source_from_bytes(one.name, one.data) for one in files], None, diagnostics)
+    if read.files:
+        yield from told(diagnostics.of(Severity.ERROR))
 
 
 def _by_line(files: Sequence[Sent], profile: Profile) -> Iterator[str]:

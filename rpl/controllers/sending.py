@@ -25,6 +25,7 @@ from rpl.controllers.link import (
 from rpl.controllers.planning import Plan, in_the_way, temporary_name
 from rpl.controllers.profile import Profile
 from rpl.errors import RplError
+from rpl.showing import counted
 
 Connect = Callable[[Profile], Link]
 Told = Callable[[str], None]
@@ -61,7 +62,7 @@ def send(link: Link, connect: Connect, profile: Profile, planned: Plan, tell: To
             kept.append((Item(one.name, old, hash_of(one.data), temporary), one.present, one.data))
         journal = journals.begin(state, profile.name, profile.address, planned.identity.said(), kept)
         journal = journal.at("backed-up")
-        tell(f"backed up {len(files)} files to {journal.folder}")
+        tell(f"backed up {counted(len(files), 'file')} to {journal.folder}")
         try:
             journal, remarks = _brought(link, profile, planned, journal, tell)
         except LinkError as error:

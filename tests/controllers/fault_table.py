@@ -81,7 +81,7 @@ def measured(maker: str) -> tuple[int, int, int]:
     told: list[str] = []
     with tempfile.TemporaryDirectory() as name, _standing(maker, "") as here:
         where = Path(name)
-        _transfer(here.profile(where), _folder(where, TRANSFERS[maker]), told.append)
+        _transfer(_profile(here, where), _folder(where, TRANSFERS[maker]), told.append)
         kinds = [one.kind for one in here.cabinet.transcript.requests]
         assert _new(here, maker).wrong == ""
         return here.cabinet.requests, kinds.count("write"), len(told)
@@ -91,6 +91,10 @@ def _standing(maker: str, fault: str):  # type: ignore[no-untyped-def]
     programs = TRANSFERS[maker]
     files = {programs.below + name: data for name, data in programs.old.items()}
     return hosted(maker, files, fault)
+
+
+def _profile(here: Hosted, where: Path, patience_s: float = 10.0) -> Profile:
+    return here.profile(where, patience_s, user="operator", given_password=here.cabinet.password)
 
 
 def _folder(where: Path, programs: Programs) -> Path:
@@ -135,7 +139,7 @@ def ended(case: Case) -> Ended:
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as temporary, _standing(case.maker, "" if name == KILL else case.fault) as here:
         where = Path(temporary)
-        profile, said = here.profile(where, PATIENCE_S), ""
+        profile, said = _profile(here, where, PATIENCE_S), ""
         try:
             _transfer(profile, _folder(where, programs), tell)
             found = _new(here, case.maker)

@@ -134,7 +134,6 @@ def test_a_controller_that_does_not_stand_is_not_written_to(tmp_path: Path, chan
 @pytest.mark.parametrize(
     ("files", "said"),
     [
-        ({"$machine.dat": b"x", "a.src": b"", "a.dat": b""}, "never sent"),
         ({"a.src": b"x"}, "must travel with it"),
         ({"a.src": b"x\n\xff", "a.dat": b""}, "a.src:2: byte 0xff is none of utf-8"),
     ],
@@ -142,6 +141,27 @@ def test_a_controller_that_does_not_stand_is_not_written_to(tmp_path: Path, chan
 def test_what_may_not_be_sent_is_named(tmp_path: Path, files: dict[str, bytes], said: str) -> None:
     planned = plan(FailingLink(Controller(dict(OLD))), profile_in(tmp_path), folder_with(tmp_path, files))
     assert any(said in text for text in planned.against)
+
+
+def test_what_would_change_and_what_is_wrong_is_told_by_meaning(tmp_path: Path) -> None:
+    program = b"DEF a( )\nWAIT SEC 1\n%s\nEND\n"
+    there, here = program % b"$OUT[1]=TRUE", program % b"$OUT[1]=FALSE\nFOR = 1"
+    controller = Controller({"a.src": there, "a.dat": b"DEFDAT a\nENDDAT\n"})
+    files = {"a.src": here, "a.dat": controller.files["a.dat"]}
+    planned = plan(FailingLink(controller), profile_in(tmp_path), folder_with(tmp_path, files))
+    assert not planned.against
+    assert any("$OUT[1]" in line for line in planned.changes)
+    assert any("a.src:" in line and "error" in line for line in planned.errors)
+
+
+def test_files_of_safety_and_system_are_left_out_and_that_is_said(tmp_path: Path) -> None:
+    folder, controller = folder_with(tmp_path, {**NEW, "$machine.dat": b"x", "notes.txt": b"x"}), Controller(dict(OLD))
+    profile = profile_in(tmp_path / "state")
+    planned = plan(FailingLink(controller), profile, folder)
+    assert [text.partition(":")[0] for text in planned.left_out] == ["$machine.dat", "notes.txt"]
+    assert "never sent" in planned.left_out[0]
+    send(FailingLink(controller), lambda profile: FailingLink(controller), profile, planned)
+    assert controller.files == AFTER
 
 
 def test_another_controller_than_the_profile_names_is_refused(tmp_path: Path) -> None:

@@ -13,9 +13,10 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 import click
 import pytest
@@ -73,8 +74,8 @@ class Input(io.TextIOWrapper):
         super().__init__(io.BytesIO(text.encode()), encoding="utf-8")
 
 
-def piped(commands: list[list[str]]) -> str:
-    """Commands of ours, each reading what the one before wrote; the last one's output."""
+def piped(commands: list[list[str]], statuses: tuple[int, ...] = DONE) -> str:
+    """Commands of ours, each reading what the one before wrote, with one of these statuses; the last one's output."""
     text = ""
     for words in commands:
         out, err, before = io.StringIO(), io.StringIO(), sys.stdin
@@ -84,14 +85,36 @@ def piped(commands: list[list[str]]) -> str:
                 status = run(words[1:])
         finally:
             sys.stdin = before
-        assert status in DONE, f"{shlex.join(words)} ends with {status}: {err.getvalue()}"
+        assert status in statuses, f"{shlex.join(words)} ends with {status}: {err.getvalue()}"
         text = out.getvalue()
     return text
 
 
-def execute(line: str) -> None:
-    """One line as a shell does it: commands of ours in this process, everything else by the shell."""
+@contextmanager
+def in_background(words: list[str]) -> Iterator[None]:
+    """A command that stands in for a controller (`&`), from when it is ready until the page ends."""
+    process = subprocess.Popen([sys.executable, "-m", "rpl.cli.main", *words[1:]], stdout=subprocess.PIPE, text=True)
+    try:
+        assert process.stdout is not None
+        assert process.stdout.readline().startswith("{")
+        yield
+    finally:
+        process.terminate()
+        process.communicate(timeout=60)
+
+
+def execute(line: str, page: ExitStack) -> None:
+    """One line as a shell does it: commands of ours in this process, everything else by the shell. A remark `exits
+    with N` at its end says which status it has."""
     words = shlex.split(line, comments=True)
+    if words[-1:] == ["&"]:
+        page.enter_context(in_background(words[:-1]))
+        return
+    if words[:1] == ["export"]:
+        name, _, value = words[1].partition("=")
+        page.enter_context(patch.dict(os.environ, {name: value}))
+        return
+    said = re.search(r"# exits with (\d)$", line)
     if not words:
         return
     target = None
@@ -107,7 +130,7 @@ def execute(line: str) -> None:
     if any(command[0] != "rpl" for command in commands):
         subprocess.run(["bash", "-ec", line], check=True, timeout=600, capture_output=True)
         return
-    text = piped(commands)
+    text = piped(commands, (int(said[1]),) if said else DONE)
     if target is not None:
         target.write_text(text, "utf-8")
 
@@ -124,17 +147,18 @@ def folder(tmp_path: Path) -> Iterator[Path]:
 
 @pytest.mark.parametrize("page", WITH_COMMANDS, ids=lambda page: page.stem)
 def test_what_a_page_says_to_type_works(page: Path, folder: Path) -> None:
-    for block in blocks(page):
-        if block.file is not None:
-            name, goes_on = block.file
-            text = (folder / name).read_text("utf-8") + block.text if goes_on else block.text
-            (folder / name).write_text(text, "utf-8")
-        elif block.runs and block.language == "python":
-            with redirect_stdout(io.StringIO()):
-                exec(compile(block.text, f"{page.name}:{block.line}", "exec"), {"__name__": "__main__"})
-        elif block.runs:
-            for line in block.text.replace("\\\n", " ").splitlines():
-                execute(line)
+    with ExitStack() as stack:
+        for block in blocks(page):
+            if block.file is not None:
+                name, goes_on = block.file
+                text = (folder / name).read_text("utf-8") + block.text if goes_on else block.text
+                (folder / name).write_text(text, "utf-8")
+            elif block.runs and block.language == "python":
+                with redirect_stdout(io.StringIO()):
+                    exec(compile(block.text, f"{page.name}:{block.line}", "exec"), {"__name__": "__main__"})
+            elif block.runs:
+                for line in block.text.replace("\\\n", " ").splitlines():
+                    execute(line, stack)
 
 
 def test_blocks_that_are_not_run_say_so_and_are_few() -> None:
@@ -183,10 +207,10 @@ def options() -> set[str]:
 
 
 def test_options_of_the_pages_exist_and_every_option_has_its_place() -> None:
-    """Some belong to benchmarks (`--write`, `--lines`, `--into`, `--csv`), some to Git."""
+    """Some belong to benchmarks (`--lines`, `--into`, `--csv`), some to Git."""
     texts = "\n".join(page.read_text("utf-8") for page in PAGES)
     told = set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", texts))
     here = options()
-    others = {"--write", "--lines", "--into", "--csv", "--global", "--ext-diff", "--no-ext-diff"}
+    others = {"--lines", "--into", "--csv", "--global", "--ext-diff", "--no-ext-diff"}
     assert told - here - others == set()
     assert here - told == set()

@@ -147,7 +147,7 @@ class FtpLink:
         """Nothing is known of what the controller does with its files."""
 
     def take_out(self, names: Sequence[str]) -> None:
-        """As above."""
+        """Nor of what it has loaded."""
 
     def close(self) -> None:
         self.channel.close()
