@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from rpl.controllers.ur.panel import Panel
@@ -46,7 +46,7 @@ class Moment:
         joints = _six(tuple(math.radians(value) for value in degrees))
         if joints == self.joints and not self.moving and self.pose != _ZERO6:
             return
-        pose = self._pose()
+        pose = self._pose(found)
         if passed > 0.0 and self.pose != _ZERO6:
             self.speeds = _six(tuple((new - old) / passed for new, old in zip(joints, self.joints, strict=True)))
             linear = tuple((new - old) / passed for new, old in zip(pose[:3], self.pose[:3], strict=True))
@@ -54,11 +54,11 @@ class Moment:
         self.moving = joints != self.joints
         self.joints, self.pose = joints, pose
 
-    def _pose(self) -> Six:
+    def _pose(self, degrees: Sequence[float] | None) -> Six:
         """The tool in the base: position in m, rotation vector in rad."""
         from rpl.emulator.rotations import matrix_to_rotation_vector
 
-        tool = self.panel.cabinet.tool
+        tool = self.panel.cabinet.tool_at(degrees) if degrees is not None else None
         if tool is None:
             return _ZERO6
         turn = matrix_to_rotation_vector(tool[:3, :3])

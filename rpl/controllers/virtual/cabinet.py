@@ -249,17 +249,17 @@ class Cabinet:
         joints = self.joints
         return None if joints is None or self.model is None else self.model.forward(joints)
 
-    @property
-    def tool(self) -> FloatArray | None:
-        """The present tool centre point in the robot's base, shape (4, 4), mm."""
+    def tool_at(self, joints: Sequence[float]) -> FloatArray | None:
+        """The tool that the program has now, with the axes there, in the robot's base, shape (4, 4), mm."""
         from rpl.runtime.functions.neutral import tool_pose
         from rpl.runtime.moves.chain import matrix_of
 
+        if self.model is None:
+            return None
+        flange = self.model.forward(joints)
         with self.lock:
-            flange = self.flange
-            if flange is None or self._simulation is None:
-                return flange
-            task = next((one for one in self._simulation.tasks if one.robot is not None), None)
+            tasks = self._simulation.tasks if self._simulation is not None else []
+            task = next((one for one in tasks if one.robot is not None), None)
             return flange if task is None else flange @ matrix_of(tool_pose(task))
 
     @property
