@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
+from typing import Literal
 
 from rpl.controllers.link import LARGEST_FILE, Identity, Link, NotThereError, State
 from rpl.controllers.profile import Profile
@@ -16,22 +17,20 @@ from rpl.source import read_bytes, source_from_bytes
 TEMPORARY = "zzrpl"
 
 
+Kind = Literal["new", "changed", "same"]
+
+
 @dataclass(frozen=True, slots=True)
 class Sent:
     """A file of a transfer: its name there, where it comes from, what is written, what the controller has (None: no
-    such file), and what was changed in the bytes on the way."""
+    such file), what that is to it, and what was changed in the bytes on the way."""
 
     name: str
     path: Path
     data: bytes
     present: bytes | None
+    kind: Kind
     remark: str = ""
-
-    @property
-    def kind(self) -> str:
-        if self.present is None:
-            return "new"
-        return "same" if self.present == self.data else "changed"
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +88,7 @@ def plan(link: Link, profile: Profile, folder: Path, state_is_known: bool = Fals
     for name in profile.rules.in_order(list(mine)):
         path, data, remark = mine[name]
         present = _present(link, name) if name.lower() in there or not there else None
-        sent.append(Sent(name, path, data, present, remark))
+        sent.append(Sent(name, path, data, present, _kind(profile, name, present, data), remark))
     names = frozenset(mine)
     for one in sent:
         against += profile.rules.complaints(one.name, one.data, profile.text_encoding, names, frozenset(there))
@@ -98,6 +97,13 @@ def plan(link: Link, profile: Profile, folder: Path, state_is_known: bool = Fals
     only_there = sorted(one.name for key, one in there.items() if key not in {name.lower() for name in names})
     changes, errors = tuple(changes_of(sent, profile)), tuple(errors_in(sent))
     return Plan(identity, state, tuple(sent), tuple(left_out), tuple(only_there), tuple(against), changes, errors)
+
+
+def _kind(profile: Profile, name: str, present: bytes | None, data: bytes) -> Kind:
+    """A text that the controller has written anew in its own way (dates, sizes) is the same program still."""
+    if present is None:
+        return "new"
+    return "same" if profile.rules.same(name, data, present) else "changed"
 
 
 def _present(link: Link, name: str) -> bytes | None:
