@@ -6,6 +6,7 @@ import re
 import struct
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from pathlib import PurePosixPath
 
 from rpl.controllers.fanuc import LOGS, reports, snpx
@@ -107,11 +108,11 @@ def connect(profile: Profile) -> FanucLink:
     """Raises LinkError. Without a user the session is an anonymous one: controllers ask for users only where a password
     option is installed."""
     channel = channel_of(profile, False)
-    try:
-        return FanucLink(channel, folder_of(profile))
-    except BaseException:
-        channel.close()
-        raise
+    with ExitStack() as failing:
+        failing.callback(channel.close)
+        link = FanucLink(channel, folder_of(profile))
+        failing.pop_all()
+    return link
 
 
 def status(profile: Profile) -> Status:

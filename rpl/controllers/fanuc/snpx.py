@@ -14,6 +14,7 @@ import socket
 import struct
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 
 from rpl.controllers.link import GarbledError, LostError, RefusedError
@@ -140,15 +141,14 @@ class SnpxClient:
             self._socket = socket.create_connection((host, port), patience_s)
         except OSError as error:
             raise LostError(f"{self.where}: {error.strerror or error}") from None
-        try:
+        with ExitStack() as failing:
+            failing.callback(self._socket.close)
             self._send(INIT)
             if self._message(time.monotonic() + patience_s) != INIT_ACK:
                 raise GarbledError(f"{self.where}: this is no panel interface of FANUC")
             self.ask(MAGIC, 1, 0, 0)
             self.command("CLRASG")
-        except BaseException:
-            self._socket.close()
-            raise
+            failing.pop_all()
 
     def ask(self, service: int, segment: int, index: int, size: int, data: bytes = b"") -> bytes:
         """The data of the answer. Raises RefusedError."""

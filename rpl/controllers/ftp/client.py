@@ -4,6 +4,7 @@ every maker lays out in his own way, are not read."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
 
 from rpl.controllers.ftp.channel import Channel
 from rpl.controllers.link import (
@@ -163,14 +164,13 @@ def _one_line(name: str) -> str:
 def channel_of(profile: Profile, tls: bool) -> Channel:
     """A session, logged in: without a user of the profile as anonymous."""
     channel = Channel(profile.host, profile.port_of("ftp"), profile.patience_s, tls)
-    try:
+    with ExitStack() as failing:
+        failing.callback(channel.close)
         if profile.user:
             channel.login(profile.user, profile.password)
         else:
             channel.login("anonymous", profile.given_password or "")
-    except BaseException:
-        channel.close()
-        raise
+        failing.pop_all()
     return channel
 
 
@@ -183,8 +183,8 @@ def folder_of(profile: Profile) -> str:
 def connect(profile: Profile) -> FtpLink:
     """Raises LinkError."""
     channel = channel_of(profile, profile.option("tls", "no").lower() in ("yes", "true", "1"))
-    try:
-        return FtpLink(channel, folder_of(profile))
-    except BaseException:
-        channel.close()
-        raise
+    with ExitStack() as failing:
+        failing.callback(channel.close)
+        link = FtpLink(channel, folder_of(profile))
+        failing.pop_all()
+    return link
