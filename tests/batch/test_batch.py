@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -109,8 +110,16 @@ def test_who_stops_asking_ends_the_processes(plant: Path) -> None:
     assert time.monotonic() - begun < PATIENCE_S / 2
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Tests that run in the background ignore SIGINT, and so would what they start."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is sent as a signal")
-def test_after_ctrl_c_the_same_command_goes_on(plant: Path) -> None:
+def test_after_ctrl_c_the_same_command_goes_on(plant: Path, interruptible: None) -> None:
     (plant / "hall1/b.src").write_text(ENDLESS.format("b"))
     results = plant.parent / "all.csv"
     command = [sys.executable, "-m", "rpl.cli.main", "batch", str(plant), "--run", "--max-steps", str(10**12)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import selectors
 import signal
 from collections.abc import Callable
 
@@ -17,7 +18,13 @@ CYCLE_S = 0.004
 
 def serve(vendor: Vendor, cabinet: Cabinet, endpoints: Endpoints, ready: Callable[[dict[str, object]], None]) -> None:
     """Open the maker's interfaces, tell `ready` where they are, and go on until SIGTERM or Ctrl-C."""
-    asyncio.run(_serve(vendor, cabinet, endpoints, ready))
+    with asyncio.Runner(loop_factory=_fine_loop) as runner:
+        runner.run(_serve(vendor, cabinet, endpoints, ready))
+
+
+def _fine_loop() -> asyncio.AbstractEventLoop:
+    """Cycles of 2 ms need moments finer than the whole milliseconds that epoll and poll wait for."""
+    return asyncio.SelectorEventLoop(selectors.SelectSelector())
 
 
 async def _serve(
