@@ -1,6 +1,6 @@
 """How many cycles of RTDE are missed: 500 Hz for a minute, while a program moves the robot.
 
-    python benchmarks/rtde_cycles.py [SECONDS]
+    python -m benchmarks.rtde_cycles [SECONDS]
 
 A cycle is missed when its values come more than one and a half cycles behind those before. The virtual controller runs
 in a process of its own, as for any client; the aim is 2 % on two cores.

@@ -28,6 +28,7 @@ from rpl.source import Source, source_from_bytes
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.emulator.rotations import FloatArray
+    from rpl.runtime.signals import Key
 
 Mode = Literal["manual", "automatic", "remote"]
 Phase = Literal["stopped", "running", "paused"]
@@ -70,6 +71,7 @@ class Cabinet:
     lock: threading.RLock = field(default_factory=threading.RLock, repr=False)
     requests: int = 0
     _simulation: Simulation | None = field(default=None, repr=False)
+    _keys: tuple[Simulation | None, dict[str, frozenset[Key]]] = field(default=(None, {}), repr=False)
     _standing: tuple[float, ...] | None = field(default=None, repr=False)
     _wall_s: float = 0.0
     _signals: dict[str, Value] = field(default_factory=dict, repr=False)
@@ -282,14 +284,23 @@ class Cabinet:
 
     def signal(self, name: str) -> Value:
         """The value of a signal, by a name or number as its language spells it; None: nobody has set it."""
-        from rpl.runtime.signals import keys_named
-
         with self.lock:
             if self._simulation is not None:
-                for key in keys_named(name, self._simulation.linked.alias(name)):
+                for key in self._keys_of(name, self._simulation):
                     if key in self._simulation.signals:
                         return self._simulation.signals[key]
             return self._signals.get(name)
+
+    def _keys_of(self, name: str, simulation: Simulation) -> frozenset[Key]:
+        """Under which keys the selected program may have the signal: worked out once for each program."""
+        from rpl.runtime.signals import keys_named
+
+        if self._keys[0] is not simulation:
+            self._keys = (simulation, {})
+        found = self._keys[1].get(name)
+        if found is None:
+            found = self._keys[1][name] = keys_named(name, simulation.linked.alias(name))
+        return found
 
     def signal_names(self) -> list[str]:
         """The signals that are known by a name: somebody has set them, from outside or in the program."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import selectors
 import signal
 from collections.abc import Callable
@@ -39,6 +40,7 @@ async def _serve(
         loop.add_signal_handler(number, over.set)
     try:
         await start(cabinet, endpoints)
+        gc.freeze()  # what was loaded stays: looking through it would cost several cycles each time
         ready({"vendor": vendor.name, "host": endpoints.host, "ports": dict(endpoints.ports)})
         endpoints.beside(_run_on(cabinet))
         await over.wait()
