@@ -4,7 +4,7 @@ them; the folder must be under the same path on all machines."""
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from importlib.util import find_spec
 
 from rpl.batch import rows
@@ -35,7 +35,7 @@ def needs_dask() -> None:
 
 def answers(
     projects: Sequence[Project], asked: Asked, address: str, limit_s: float
-) -> Iterator[tuple[Project, Answer]]:
+) -> Generator[tuple[Project, Answer], None, None]:
     """What comes of each project, in the order in which they are done. Raises UsageError when no scheduler answers."""
     needs_dask()
     from distributed import Client, as_completed

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from pathlib import Path
@@ -137,7 +137,9 @@ class Worker:
         return next((line.strip() for line in reversed(lines) if line.strip()), "")
 
 
-def answers(projects: Sequence[Project], asked: Asked, jobs: int, limit_s: float) -> Iterator[tuple[Project, Answer]]:
+def answers(
+    projects: Sequence[Project], asked: Asked, jobs: int, limit_s: float
+) -> Generator[tuple[Project, Answer], None, None]:
     """What comes of each project, in the order in which they are done. Who closes the iterator ends the processes."""
     here, workers = threading.local(), list[Worker]()
 

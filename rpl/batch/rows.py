@@ -77,7 +77,7 @@ def columns(asked: Asked, timings: bool = False) -> tuple[str, ...]:
 
 def row_of(cells: Mapping[str, object]) -> Row:
     """The row that `cells` was made of; raises TypeError for another document."""
-    return Row(**cells)  # type: ignore[arg-type]
+    return Row(**cells)  # type: ignore[arg-type]  # a document of JSON: other columns are a TypeError, which is asked for
 
 
 def status(rows: Iterable[Row]) -> int:

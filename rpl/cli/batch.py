@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from rpl.batch.rows import Row
     from rpl.batch.work import Answer
 
-    Answers = Iterator[tuple[Project, Answer]]
+    Answers = Generator[tuple[Project, Answer], None, None]
 
 INTERRUPTED = 130
 _LIMIT_S = 300.0
@@ -217,7 +217,7 @@ def _work(
             stopped.add_note(f"with {len(done)} of {len(found)} projects done{more}")
             raise
         finally:
-            ahead.close()  # type: ignore[attr-defined]
+            ahead.close()
     return [row for one in found for row in done[one.name].rows]
 
 

@@ -146,7 +146,7 @@ class _File(io.BytesIO):
         self.name = name
 
 
-class _Files(AbstractedFS):  # type: ignore[misc]
+class _Files(AbstractedFS):  # type: ignore[misc]  # pyftpdlib has no types
     """Paths inside of the server are '/NAME'."""
 
     shelf: Shelf
@@ -246,7 +246,7 @@ class _Files(AbstractedFS):  # type: ignore[misc]
             raise FilesystemError(self.shelf.said(error)) from None
 
 
-class _Transfer(DTPHandler):  # type: ignore[misc]
+class _Transfer(DTPHandler):  # type: ignore[misc]  # as above
     """A file is written when all of it has come, and what the controller says of it is the answer."""
 
     def handle_close(self) -> None:
@@ -264,7 +264,7 @@ class _Transfer(DTPHandler):  # type: ignore[misc]
         self.close()
 
 
-class _Session(FTPHandler):  # type: ignore[misc]
+class _Session(FTPHandler):  # type: ignore[misc]  # as above
     """A client's session: each request is told to the cabinet, and faults come with answers."""
 
     cabinet: Cabinet
