@@ -143,12 +143,13 @@ def _proved(
     folder: Path, origin: str, accept_alike: bool, robots: tuple[str | None, str | None], cell: str | None
 ) -> str:
     """The verdict on the folder and its origin. Raises SourceError when it is not good enough to be sent."""
-    from rpl.cli.output import collector, read_paths
+    from rpl.cli.proofs import answer, programs_of, with_arms
     from rpl.errors import SourceError
-    from rpl.proof.prove import load_cell, prove_programs
+    from rpl.proof.certificate import Question
 
-    first, second = (read_paths([path], None, collector()) for path in (origin, str(folder)))
-    result = prove_programs(first.program, second.program, robots[0], robots[1], load_cell(cell))
+    question = Question(origin, str(folder), robot=robots[0], to_robot=robots[1], cell=cell)
+    programs = programs_of(question)
+    result = answer(with_arms(question, programs), programs)
     if result.verdict != "equal" and not (accept_alike and result.verdict == "alike"):
         raise SourceError(f"nothing is sent: {folder} and {origin}: {result.headline()}")
     say(f"rpl: {folder} and {origin}: {result.headline()}", err=True)
