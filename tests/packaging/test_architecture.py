@@ -16,7 +16,7 @@ LEVELS = [
     ["cli"],
     ["api", "controllers", "batch"],
     ["proof", "fitting"],
-    ["project", "translation", "simulation", "standing", "report", "inventory", "comparing", "housestyle"],
+    ["project", "translation", "simulation", "workcell", "standing", "report", "inventory", "comparing", "housestyle"],
     ["sidefiles", "archives"],
     ["cell", "emulator", "runtime", "linking", "writing", "reading"],
     ["passes"],

@@ -1,0 +1,152 @@
+"""The bodies of a cell as data: robots with their programs, grippers, fixtures, bins, parts, and the signals between.
+
+Poses are x y z in mm and a b c in degrees (about z, then y, then x), turned into (4, 4) matrices when a cell file is
+read. What is said here never changes while a program runs; where the parts are then is `rpl.cell.world`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from rpl.cell.shapes import Shape
+from rpl.emulator.rotations import FloatArray
+
+# What a row without a robot's name means: the only one of the cell.
+ONLY_ROBOT = ""
+
+
+def _nowhere() -> FloatArray:
+    return np.eye(4)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """A form in a place: of a fixture in the cell, of a gripper on the flange."""
+
+    shape: Shape
+    at: FloatArray = field(default_factory=_nowhere)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobotPlace:
+    """A robot of the cell. `arm`: the name or file of its model; `programs`: paths of its program, by the cell file;
+    `base`: of its base in the cell."""
+
+    name: str = ONLY_ROBOT
+    arm: str = ""
+    programs: tuple[str, ...] = ()
+    entry: str = ""
+    base: FloatArray = field(default_factory=_nowhere)
+    joints: tuple[float, ...] | None = None
+    key: str = ""  # of its row, for messages
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """A signal of a robot that becomes a value."""
+
+    signal: str
+    value: bool | int | float = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Gripper:
+    """What a robot holds parts with. `grip` is the pose of the point between its jaws, or of the lip of its cup, on the
+    flange, z away from the gripper; jaws close along its y. `opening`: least and greatest distance of the jaws in mm.
+    `misses`: at which of its grasps, counted from 1, it does not hold the part; `chance_of_miss`: of each other one."""
+
+    name: str
+    kind: Literal["jaws", "suction"]
+    robot: str = ONLY_ROBOT
+    grip: FloatArray = field(default_factory=_nowhere)
+    bodies: tuple[Body, ...] = ()
+    close: Switch = Switch("")
+    open: Switch | None = None  # None: the signal of `close` going back
+    gripped: str = ""  # input that is TRUE while a part is held
+    time_s: float = 0.0
+    opening: tuple[float, float] = (0.0, 1000.0)
+    reach_mm: float = 20.0  # how far from the grip point a part may be
+    misses: tuple[int, ...] = ()
+    chance_of_miss: float = 0.0
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fixture:
+    """What stands still: its upward faces carry parts. `keeps`: a bin, from whose inside nothing falls out."""
+
+    name: str
+    bodies: tuple[Body, ...]
+    restitution: float = 0.3
+    keeps: bool = False
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """What can be moved. `at`: where its frame is at the start; `restitution` of its material, `mass_kg` None: not
+    weighed."""
+
+    name: str
+    shape: Shape
+    at: FloatArray = field(default_factory=_nowhere)
+    restitution: float = 0.3
+    mass_kg: float | None = None
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sensor:
+    """An input that is TRUE while any part (or one of `parts`) is in a body."""
+
+    name: str
+    signal: str
+    body: Body
+    robot: str = ONLY_ROBOT
+    parts: tuple[str, ...] = ()
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Wire:
+    """An output of one robot that is an input of another one."""
+
+    robot: str
+    output: str
+    to_robot: str
+    input: str
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """Everything that a cell file says of bodies. `allowed`: pairs of names that may touch each other."""
+
+    robots: tuple[RobotPlace, ...] = ()
+    grippers: tuple[Gripper, ...] = ()
+    fixtures: tuple[Fixture, ...] = ()
+    parts: tuple[Part, ...] = ()
+    sensors: tuple[Sensor, ...] = ()
+    wires: tuple[Wire, ...] = ()
+    allowed: tuple[tuple[str, str], ...] = ()
+    scatter: float = 0.0  # mm per mm of drop, of what bounces
+    tangle: float = 0.0
+    near_mm: float = 20.0  # distances below this are near misses
+    path: str = ""
+
+    def __bool__(self) -> bool:
+        return bool(self.robots or self.grippers or self.fixtures or self.parts or self.sensors)
+
+    def robot(self, name: str) -> RobotPlace:
+        """The robot of that name; the only one, at the origin, where the cell names none."""
+        if not self.robots:
+            return RobotPlace()
+        return next(one for one in self.robots if name in (one.name, ONLY_ROBOT))
+
+    @property
+    def by_name(self) -> Mapping[str, Part]:
+        return {one.name: one for one in self.parts}
