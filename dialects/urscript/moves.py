@@ -8,6 +8,7 @@ read as the moves they stand for, which is reported. speedj and speedl begin a m
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from rpl import ir
 from rpl.diagnostics import Severity, code
@@ -107,7 +108,8 @@ def _servoj(calls: Calls, bound: Bound) -> Made:
     goal = bound["q"]
     assert goal is not None  # it has to be given
     speed = ir.Speed(duration=quantity(calls, bound["t"], "s"))
-    return (ir.Move("joint", target(calls, goal), speed=speed, blend=ir.BlendStop(), origin=calls.origin),)
+    made = ir.Move("joint", target(calls, goal), speed=speed, blend=ir.BlendStop(), origin=calls.origin)
+    return (replace(made, motion_class="servo"),)
 
 
 def _servoc(calls: Calls, bound: Bound) -> Made:

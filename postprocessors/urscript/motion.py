@@ -46,6 +46,8 @@ class Motion:
         if move.motion_class == "velocity":
             return self.rates(move)
         self.refuse(move)
+        if move.motion_class == "servo" and move.kind == "joint":
+            return {"word": "servoj", "places": [self.place(move, move.target)], "settings": self.speed(move)}
         word = _WORDS.get(move.kind)
         if word is None:
             raise CannotSayError(f"there is no {move.kind} move")

@@ -138,7 +138,9 @@ class Move:
     motion_class: `classic`, `spline` (KRL SLIN and PTP blend by different rules) or `process` (URScript movep: constant
     speed of the tool, circular blends), or `velocity` (URScript speedl, speedj: a relative move without an end. Its
     target is the way in a second, the speed's duration the time after which the program goes on; without a duration it
-    goes on at full speed. The next move of this class takes over at the speed there is, any other one brakes first).
+    goes on at full speed. The next move of this class takes over at the speed there is, any other one brakes first), or
+    `servo` (URScript servoj: the program goes on after the speed's duration, wherever the robot is then; the next move
+    of this class takes over at the speed there is, any other one begins at the target).
     target: expression of target, pose or joints type (a joints value makes any move go there).
     via: auxiliary point of a circle; swept: total angle in deg.
     relative: None, `base` (target is an offset in base axes), `tool`, or `joints` (offset per axis).

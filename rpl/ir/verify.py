@@ -101,7 +101,7 @@ _WORDS: dict[type, dict[str, tuple[str, ...]]] = {
     Spline: {"kind": ("path", "joint")},
     Move: {
         "kind": ("joint", "linear", "circular", "spline"),
-        "motion_class": ("classic", "spline", "process", "velocity"),
+        "motion_class": ("classic", "spline", "process", "velocity", "servo"),
     },
     Variable: {"storage": ("constant", "variable", "persistent"), "scope": SCOPES},
     Parameter: {"mode": ("value", "reference", "readonly")},

@@ -92,7 +92,7 @@ class MotionStatements:
             "circle_orientation": move.circle_orientation,
             "configuration": move.configuration,
             "concurrent": move.concurrent,
-            "velocity": move.motion_class == "velocity",
+            **{name: move.motion_class == name for name in ("velocity", "servo")},
         }
         kind, rules = move.kind, self.linker.compiler.scope.rules
         load, hand_over = self.optional(move.load), submit or _submit

@@ -127,6 +127,51 @@ said["after"] = c.isProgramRunning()
 print(json.dumps(said))
 """
 
+SERVO = """
+import json, sys, time
+import rtde_control, rtde_receive
+
+c = rtde_control.RTDEControlInterface(sys.argv[1])
+r = rtde_receive.RTDEReceiveInterface(sys.argv[1])
+said = {}
+
+def stream(name, call, stop, count=100):
+    answers = []
+    for number in range(count):
+        began = c.initPeriod()
+        answers.append(call(number))
+        c.waitPeriod(began)
+    moved = wait_until(lambda: moves() or not c.isProgramRunning())
+    said[name] = {"all": all(answers), "moved": moved, "stopped": stop(), "runs": c.isProgramRunning()}
+    time.sleep(0.5)  # values of another connection come a moment later
+    said[name]["q"], said[name]["pose"] = r.getActualQ(), r.getActualTCPPose()
+    time.sleep(0.3)
+    said[name]["rests"] = max(abs(a - b) for a, b in zip(r.getActualQ(), said[name]["q"])) < 1e-6
+    said[name]["back"] = c.moveJ(q, 2.0, 4.0)
+    time.sleep(0.5)
+
+def wait_until(holds):
+    until = time.time() + 20
+    while time.time() < until and not holds():
+        time.sleep(0.01)
+    return holds()
+
+def moves():
+    return max(abs(a - b) for a, b in zip(r.getActualQ(), q)) > 1e-3
+
+q, pose = r.getActualQ(), r.getActualTCPPose()
+said["q"], said["pose"] = q, pose
+said["stay"] = [c.servoJ(q, 0.5, 0.5, 0.002, 0.1, 300) for _ in range(50)] + [c.servoStop(), not moves()]
+stream("servoJ", lambda n: c.servoJ([q[0] + 0.001 * n] + q[1:], 0.5, 0.5, 0.002, 0.1, 300), c.servoStop)
+stream("servoL", lambda n: c.servoL(pose[:2] + [pose[2] - 0.0005 * n] + pose[3:], 0.5, 0.5, 0.002, 0.1, 300),
+       c.servoStop)
+stream("speedJ", lambda n: c.speedJ([0.2, 0.0, 0.0, 0.0, 0.0, 0.0], 0.5, 0.002), c.speedStop)
+stream("speedL", lambda n: c.speedL([0.0, 0.0, -0.05, 0.0, 0.0, 0.0], 0.5, 0.002), c.speedStop)
+stream("no time", lambda n: c.speedL([0.0, 0.0, -0.05, 0.0, 0.0, 0.0], 0.5), c.speedStop, 1)
+c.stopScript()
+print(json.dumps(said))
+"""
+
 FILES = """
 import io, json, sys
 import paramiko
@@ -192,6 +237,23 @@ def test_the_control_script_of_ur_rtde_is_run_by_our_interpreter(controller: Pat
         one for line in controller.read_text("utf-8").splitlines() if (one := json.loads(line))["kind"] == "start"
     ]
     assert started and all(one["interface"] == "realtime" for one in started)
+
+
+def test_ur_rtde_drives_the_arm_place_by_place_and_at_given_speeds(controller: Path, ur_rtde: Path) -> None:
+    """How far the arm comes depends on this machine; where it goes, and that it stops, does not."""
+    said = run_client(ur_rtde, SERVO, HOST)
+    q, pose = said["q"], said["pose"]
+    for name in ("servoJ", "servoL", "speedJ", "speedL", "no time"):
+        one = said[name]
+        assert (one["all"], one["moved"], one["stopped"], one["runs"], one["rests"], one["back"]) == (True,) * 6, name
+        other = [abs(a - b) for a, b in zip(one["q"][1:], q[1:], strict=True)]
+        if name.endswith("J"):
+            assert one["q"][0] - q[0] > 0.001 and max(other) < 1e-5
+        else:
+            assert one["pose"][2] < pose[2] - 0.0002
+            assert one["pose"][:2] == pytest.approx(pose[:2], abs=1e-4)
+    assert said["servoJ"]["q"][0] < q[0] + 0.0991 and said["servoL"]["pose"][2] > pose[2] - 0.0496
+    assert all(said["stay"])
 
 
 def test_paramiko_writes_and_reads_files(

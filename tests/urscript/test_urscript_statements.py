@@ -122,7 +122,7 @@ def test_direct_drives_are_read_as_moves_and_said_so() -> None:
     made = routine(program, "p").body
     assert [type(s).__name__ for s in made] == ["Move", "Move", "Move", "Move"]
     assert [m.relative for m in made if isinstance(m, ir.Move)] == [None, "base", "joints", "base"]
-    assert [m.motion_class for m in made if isinstance(m, ir.Move)] == ["classic", *["velocity"] * 3]
+    assert [m.motion_class for m in made if isinstance(m, ir.Move)] == ["servo", *["velocity"] * 3]
     assert codes(diagnostics, Severity.INFO) == ["urscript-servo"]
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from rpl.passes import rigid
 from rpl.runtime.faults import ProgramError
-from rpl.runtime.moves import pieces
+from rpl.runtime.moves import pieces, velocities
 from rpl.runtime.moves.chain import (
     Frames,
     convention_of,
@@ -63,6 +63,8 @@ class Imagined:
         for trigger in order.triggers:
             queue.fire(trigger)
         self._search(order)
+        if order.servo:
+            return velocities.after(queue, order, order.speed.duration or 0.0, next)
         return task.attention(next) if task.triggers else next
 
     def _search(self, order: Order) -> None:

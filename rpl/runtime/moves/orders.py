@@ -186,6 +186,7 @@ class Order:
     concurrent: bool = False
     external_only: bool = False
     velocity: bool = False
+    servo: bool = False
     block: tuple[Order, ...] = ()
     path_rules: tuple[PathRuleOrder, ...] = ()
     identity: str | None = None

@@ -18,6 +18,7 @@ from rpl.runtime.moves import (
     pieces,
     resting,
     searching,
+    servoing,
     stopping,
     together,
     velocities,
@@ -75,6 +76,8 @@ class MotionQueue(RobotState):
             raise ProgramError("motion", "an action at a distance along the path needs a path: this is a joint move")
         if order.velocity:
             return velocities.go(self, order, next)
+        if order.servo and self.model is not None:
+            return servoing.go(self, order, next)
         if velocities.is_endless(self):
             velocities.let_rest(self)
             return task.wait_for("idle", order.at, order.at)

@@ -31,7 +31,7 @@ def check(task: Task, order: Order) -> None:
         raise ProgramError(
             "synchronisation", f"{task.name} goes together with other robots: its move needs an identity"
         )
-    if order.search is not None or order.concurrent or order.velocity or order.block:
+    if order.search is not None or order.concurrent or order.velocity or order.servo or order.block:
         raise ProgramError(
             "synchronisation", f"a move of this kind is not driven together with other robots ({called})"
         )

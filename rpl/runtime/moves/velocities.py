@@ -43,20 +43,20 @@ def go(queue: Robot, order: Order, next: int) -> int:
     """Drive at the order's speed from now on; how the program goes on."""
     task, now = queue.task, queue.machine.now
     if queue.model is None:
-        return _after(queue, order, order.speed.duration or 0.0, next)
+        return after(queue, order, order.speed.duration or 0.0, next)
     if task.busy and not is_endless(queue):
         return task.wait_for("idle", order.at, order.at)
     joints = queue.joints_array()
     rate, request, tool = _wanted(queue, order, joints)
     if rate.size < STANDS:
         let_rest(queue)
-        return _after(queue, order, order.speed.duration or 0.0, next)
+        return after(queue, order, order.speed.duration or 0.0, next)
     speed, before = _speed_along(queue, rate), queue.piece
     if before is None or not _same(before.drive.rate, rate):
         made = _stretch(queue, joints, rate, request, speed)
         if not isinstance(made, tuple):
             return queue.refuse(made, order, next)
-        _leave(queue, joints)
+        leave(queue, joints)
         plan, rate = made
         queue.numbers += 1
         drive = Drive(queue.numbers, order, plan, tool, None, queue.external)
@@ -65,7 +65,7 @@ def go(queue: Robot, order: Order, next: int) -> int:
         task.busy = True
         queue.drive(Piece(drive, plan, now))
     ramp = abs(rate.size - speed) / rate.acceleration
-    return _after(queue, order, order.speed.duration or ramp, next)
+    return after(queue, order, order.speed.duration or ramp, next)
 
 
 def go_on(queue: Robot, piece: Piece) -> None:
@@ -85,16 +85,19 @@ def go_on(queue: Robot, piece: Piece) -> None:
     queue.fault(made, drive.order)
 
 
-def _after(queue: Robot, order: Order, seconds: float, next: int) -> int:
-    """The program goes on after a time, in which nothing else is waited for."""
+def after(queue: Robot, order: Order, seconds: float, next: int) -> int:
+    """The program goes on after a time, in which nothing else is waited for; with a robot no earlier than in the next
+    cycle of its controller. M: programs run there that repeat such a motion in a loop that does nothing else."""
+    if queue.model is not None:
+        seconds = max(seconds, order.rules.wait_poll_s)
     if seconds <= 0.0:
         return next
     now = queue.machine.now
     return queue.task.block(Wait("time", order.at, next, queue.machine.token(), now, now + seconds))
 
 
-def _leave(queue: Robot, joints: FloatArray) -> None:
-    """Another speed takes over: the move before is over where the robot is."""
+def leave(queue: Robot, joints: FloatArray) -> None:
+    """Another speed or target takes over: the move before is over where the robot is."""
     before = queue.piece
     queue.joints = queue.planned_joints = joints
     if before is not None:
@@ -207,4 +210,4 @@ def _speed_along(queue: Robot, rate: Rate) -> float:
     return max(along, 0.0) * rate.size
 
 
-__all__ = ["go", "go_on", "is_endless", "let_rest"]
+__all__ = ["after", "go", "go_on", "is_endless", "leave", "let_rest"]

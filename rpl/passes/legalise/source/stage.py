@@ -36,6 +36,7 @@ from rpl.passes.legalise.source.places.waynumbers import ways_as_numbers
 from rpl.passes.legalise.source.precisions import precisions
 from rpl.passes.legalise.source.rates import rates
 from rpl.passes.legalise.source.sameunits import same_units
+from rpl.passes.legalise.source.servos import servos
 from rpl.passes.legalise.source.settingparts import whole_settings
 from rpl.passes.legalise.source.signals.cyclicflags import cyclic_flags
 from rpl.passes.legalise.source.signals.namedflags import named_flags
@@ -76,6 +77,7 @@ STAGE = Stage(
         text_lengths,
         grown_arrays,
         rates,
+        servos,
         axes_of_arm,
         copied_flags,
         read_ports,
