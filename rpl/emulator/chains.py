@@ -181,6 +181,35 @@ def urdf_inertias(chain: UrdfChain, zero: FloatArray) -> ArmInertias | None:
     return ArmInertias(tuple(bodies), np.where(known, efforts, 0.0) if known.any() else None, None, "URDF")
 
 
+def joint_origins(chain: UrdfChain, zero: FloatArray) -> FloatArray:
+    """Where the origins of the joints are (n, 3), mm in the base, its joints (radians, mm) standing at `zero`."""
+    import pinocchio as pin
+
+    model, data, _ = _pinocchio(chain)
+    pin.forwardKinematics(model, data, _in_metres(chain, zero))
+    return 1000.0 * np.array([data.oMi[number].translation for number in range(1, model.njoints)])
+
+
+def body_frames(chain: UrdfChain, zero: FloatArray) -> dict[str, tuple[int, FloatArray]]:
+    """For each link of the URDF by name: the number of the joint that moves it (0: it stands still), and its frame
+    (4, 4) in mm in the base, the joints of the chain (radians, mm) standing at `zero`."""
+    import pinocchio as pin
+
+    model, data, _ = _pinocchio(chain)
+    pin.framesForwardKinematics(model, data, _in_metres(chain, zero))
+    found = {}
+    for number, frame in enumerate(model.frames):
+        if frame.type == pin.FrameType.BODY:
+            pose = data.oMf[number].homogeneous.copy()
+            pose[:3, 3] *= 1000.0
+            found[frame.name] = (int(frame.parentJoint), pose)
+    return found
+
+
+def _in_metres(chain: UrdfChain, joints: FloatArray) -> FloatArray:
+    return np.asarray(joints * np.array([1.0 if kind == "revolute" else 1e-3 for kind in chain.kinds]))
+
+
 @lru_cache(maxsize=16)
 def _pinocchio(chain: UrdfChain) -> "tuple[pin.Model, pin.Data, int]":
     """Pinocchio's model of the chain with every other joint held, its work space, and the frame of the tip."""

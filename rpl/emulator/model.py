@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rpl.emulator.arms import Arm, BoolArray, Branch, OpwArm, ScaraArm, UrArm
-from rpl.emulator.chains import ChainArm, described, exact_opw, read_urdf, urdf_inertias
+from rpl.emulator.chains import ChainArm, UrdfChain, described, exact_opw, read_urdf, urdf_inertias
 from rpl.emulator.inertias import ArmInertias, arm_inertias
 from rpl.emulator.mechanismfile import NEUTRAL_PULSES, Mechanism, checked_together, pulses_of
 from rpl.emulator.postures import has_sides, in_posture, same_posture, sides
 from rpl.emulator.robotfile import (
+    BodyFile,
     Kind,
     RobotError,
     RobotFile,
@@ -93,6 +94,15 @@ class Posture:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class UrdfSource:
+    """The URDF that an arm was read from. `zero`: its joints (n,), radians and mm, where theta is zero."""
+
+    path: Path
+    chain: UrdfChain
+    zero: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class RobotModel:
     """One robot. Arrays have one entry (or row) per axis, in pendant units: degrees, mm for a prismatic joint."""
 
@@ -122,6 +132,9 @@ class RobotModel:
     mechanisms: tuple[Mechanism, ...] = ()  # what its file says of tracks and tables that come with it
     inertias: ArmInertias | None = None  # what the links weigh, where somebody has published it
     lag: FloatArray | None = None  # time constants (n,) s of following the command, where somebody has measured them
+    foot_mm: float = 0.0  # height of the mounting face in the base frame
+    bodies: tuple[BodyFile, ...] = ()  # forms of links that its file gives
+    urdf: UrdfSource | None = None
     revolute: BoolArray = field(init=False)  # which joints turn, (n,)
     couplings: tuple[tuple[int, int], ...] = field(init=False)  # of arm_to_pendant: entries beside the diagonal
 
@@ -391,6 +404,8 @@ def _assembled(
         mechanisms=file.mechanisms,
         inertias=None if file.weights is None else arm_inertias(file.weights),
         lag=None if file.lag is None else _fixed(file.lag),
+        foot_mm=-file.lengths["c1"] if file.origin_at_axis_2 else 0.0,
+        bodies=file.bodies,
     )
 
 
@@ -434,4 +449,4 @@ def _from_urdf(path: Path, file: RobotFile | None = None) -> RobotModel:
     else:
         offsets = fit.signs * offsets + np.rad2deg(fit.offsets)
         model = _assembled(facts, "opw", chain.kinds, fit.arm, np.diag(fit.signs * signs), offsets)
-    return replace(model, inertias=inertias)
+    return replace(model, inertias=inertias, urdf=UrdfSource(path, chain, _fixed(zero)))

@@ -30,10 +30,11 @@ LENGTHS: dict[Kind, tuple[str, ...]] = {
 AXES: dict[Kind, int] = {"opw": 6, "ur": 6, "scara": 4, "chain": 0}
 Vector = tuple[float, ...]
 TOP_KEYS = ("name", "maker", "title", "kind", "source", "assumed", "notes", "payload_kg",
-            "geometry", "axes", "motion", "mechanism", "link", "dynamics")  # fmt: skip
+            "geometry", "axes", "motion", "mechanism", "link", "dynamics", "body")  # fmt: skip
 GEOMETRY_KEYS = ("offsets", "signs", "joint_3_follows_joint_2", "origin_at_axis_2", "urdf", "tip")
 AXIS_KEYS = ("limits", "speeds", "accelerations", "home", "pulses_per_degree", "counts_pulses", "lag")
 LINK_KEYS, DYNAMICS_KEYS = ("mass", "centre", "inertia", "origin", "axes"), ("torques", "rotors", "source")
+BODY_KEYS = ("link", "radius", "from", "to")
 RAMPS = "joint_ramps_s"
 
 
@@ -80,6 +81,17 @@ class WeightFile:
 
 
 @dataclass(frozen=True, slots=True)
+class BodyFile:
+    """A capsule of a link (0: what stands still), between two points in mm in the base where all the family's own joint
+    variables are zero; a ball where they are one."""
+
+    link: int
+    radius: float
+    start: Vector
+    end: Vector
+
+
+@dataclass(frozen=True, slots=True)
 class RobotFile:
     """One description, checked: lengths in mm, angles in degrees (mm for a sliding joint), speeds per second.
 
@@ -112,6 +124,7 @@ class RobotFile:
     weights: WeightFile | None = None
     lag: Vector | None = None  # time constants of the axes' following behind their command, s
     payload_kg: float | None = None
+    bodies: tuple[BodyFile, ...] = ()
 
 
 def robot_names() -> list[str]:
@@ -239,6 +252,7 @@ def _parse(text: str, place: str, folder: Path | None) -> RobotFile:
         weights=_weights(reader, count),
         lag=_lag(axes, count),
         payload_kg=_payload(reader),
+        bodies=_bodies(reader, count),
     )
 
 
@@ -321,6 +335,30 @@ def _link(link: "_Reader") -> LinkFile:
     if len(turned) != 3 or not _is_rotation(turned):
         raise link.fail("axes", "three unit vectors x, y, z at right angles, right-handed")
     return LinkFile(mass, link.numbers("centre", 3), inertia, link.numbers("origin", 3, (0.0,) * 3), turned)
+
+
+def _bodies(reader: "_Reader", count: int) -> tuple[BodyFile, ...]:
+    """The capsules of the links, where the file gives any."""
+    entries = reader.data.get("body", [])
+    if not isinstance(entries, list):
+        raise reader.table_of("body", {}).wrong("", "bodies are tables with the header [[body]]")
+    found = []
+    for number, entry in enumerate(entries, start=1):
+        body = reader.table_of("body" if number == 1 else f"body {number}", entry)
+        body.known(BODY_KEYS)
+        link = body.data.get("link")
+        if not isinstance(link, int) or isinstance(link, bool) or not 0 <= link <= count:
+            raise body.fail("link", f"the number of a joint that moves it, 1 to {count}, or 0 for the base")
+        radius = body.number("radius", FARTHEST)
+        if radius < SMALLEST:
+            raise body.fail("radius", "a number of mm above 0")
+        start = body.numbers("from", 3)
+        end = body.numbers("to", 3, start)
+        for key, point in (("from", start), ("to", end)):
+            if max(abs(number) for number in point) > FARTHEST:
+                raise body.fail(key, f"three numbers of at most {FARTHEST:,.0f}")
+        found.append(BodyFile(link, radius, start, end))
+    return tuple(found)
 
 
 def _is_rotation(axes: tuple[Vector, ...]) -> bool:

@@ -1,0 +1,257 @@
+"""The bodies of an arm: capsules along its links, those that its robot file gives, or the meshes of its URDF.
+
+Each body is rigid to a link: link 0 stands still, link i is what joint i moves. The frame of every link is the base
+frame at the posture where all the arm's own joint variables are zero (theta = 0: an `opw` arm straight up, a `ur` arm
+stretched out level), so that points of a body are given as they lie in the arm then; `link_poses` carries them from
+there. Where the capsules lie follows from the lengths of the arm. How thick they are is nowhere published for all arms:
+it is a share of the reach (`SHARES`), an assumption.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rpl.cell.shapes import Capsule, Cylinder, Shape, Sphere
+from rpl.cell.urdfbodies import urdf_bodies
+from rpl.emulator.arms import OpwArm, ScaraArm, UrArm
+from rpl.emulator.recognise import PlacedArm
+from rpl.emulator.rotations import FloatArray, pose_matrix
+
+if TYPE_CHECKING:
+    from rpl.emulator.arms import Arm
+    from rpl.emulator.model import RobotModel
+
+# Radii of bodies as shares of the reach of the wrist: of the foot, of what turns on it, of upper arm, forearm, wrist
+# and flange.
+SHARES = {"foot": 0.105, "shoulder": 0.1, "upper": 0.075, "fore": 0.065, "wrist": 0.05, "flange": 0.035}
+# How far along the forearm the body goes that joint 4 does not turn.
+ELBOW_SHARE = 0.35
+# Shorter than this, mm, a piece is no body of its own.
+_SHORTEST = 1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LinkBody:
+    """A form that goes with a link. `at` (4, 4): where it is in the frame of the link, mm."""
+
+    link: int
+    shape: Shape
+    at: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class ArmBodies:
+    """The bodies of an arm. `source`: where they come from; `notes`: what could not be had."""
+
+    bodies: tuple[LinkBody, ...]
+    source: str
+    notes: tuple[str, ...] = ()
+
+
+def arm_bodies(model: RobotModel) -> tuple[LinkBody, ...]:
+    """The bodies of an arm, link by link."""
+    return bodies_of(model).bodies
+
+
+@lru_cache(maxsize=64)
+def bodies_of(model: RobotModel) -> ArmBodies:
+    """The bodies of an arm, and what is to be said of them.
+
+    For each link those that the robot file gives, else those of the URDF, else capsules by the arm's lengths.
+    """
+    fitted = _fitted(model)
+    source = "capsules by the lengths of the arm, radii by its reach (an assumption)"
+    given: tuple[LinkBody, ...] = ()
+    lacking: dict[int, str] = {}
+    if model.urdf is not None:
+        read, lacking = urdf_bodies(model.urdf)
+        given = tuple(LinkBody(*one) for one in read)
+        given = (*given, *(body for body in fitted if body.link in lacking))
+        source = "meshes and forms of the URDF" if given else source
+    if model.bodies:
+        own = tuple(
+            capsule_between(one.link, np.array(one.start), np.array(one.end), one.radius) for one in model.bodies
+        )
+        given = (*own, *_others(given, own))
+        source = "the robot file"
+    found = sorted((*given, *_others(fitted, given)), key=lambda body: body.link)
+    return ArmBodies(tuple(found), source, tuple(lacking.values()))
+
+
+def _others(bodies: Sequence[LinkBody], said: Sequence[LinkBody]) -> list[LinkBody]:
+    """Those of links that have none yet."""
+    links = {body.link for body in said}
+    return [body for body in bodies if body.link not in links]
+
+
+def link_poses(model: RobotModel, joints: ArrayLike) -> FloatArray:
+    """Where the frames of the links are, (k, links + 1, 4, 4) mm in the robot's base, for joints (k, n) in pendant
+    units. Link 0 is the base itself.
+
+    The product of exponentials over the joint axes at theta = 0 (Lynch and Park, Modern Robotics, 2017, ch. 4.1).
+    """
+    theta = model.theta(joints)
+    points, directions = model.arm.axes(np.zeros(model.axes))
+    poses = np.zeros((len(theta), model.axes + 1, 4, 4))
+    poses[:, :, 3, 3] = 1.0
+    poses[:, 0] = np.eye(4)
+    # The numbers of all moments side by side: turned (3, 3, k) and shifted (3, k).
+    turned = np.repeat(np.eye(3)[:, :, None], len(theta), axis=2)
+    shifted = np.zeros((3, len(theta)))
+    for joint, (point, direction, turning) in enumerate(zip(points, directions, model.revolute, strict=True)):
+        value = theta[:, joint]
+        if turning:
+            x, y, z = direction
+            across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+            before = np.einsum("ijk,j->ik", turned, point)
+            # Rodrigues: R (I + sin K + (1 - cos) K K), about the point.
+            first = across.T @ turned
+            turned = turned + np.sin(value) * first + (1.0 - np.cos(value)) * (across.T @ first)
+            shifted = shifted + before - np.einsum("ijk,j->ik", turned, point)
+        else:
+            shifted = shifted + np.einsum("ijk,j->ik", turned, direction) * value
+        poses[:, joint + 1, :3, :3] = turned.transpose(2, 0, 1)
+        poses[:, joint + 1, :3, 3] = shifted.T
+    return poses
+
+
+def capsule_between(link: int, start: FloatArray, end: FloatArray, radius: float) -> LinkBody:
+    """A capsule about the way between two points (3,), a ball where they are one."""
+    length = float(np.linalg.norm(end - start))
+    if length < _SHORTEST:
+        return LinkBody(link, Sphere(2.0 * radius), pose_matrix((start + end) / 2.0))
+    return LinkBody(link, Capsule(2.0 * radius, length), _along(start, end))
+
+
+def _cylinder(link: int, start: FloatArray, end: FloatArray, radius: float) -> list[LinkBody]:
+    """A cylinder with its flat ends in two points (3,); nothing where they are one."""
+    length = float(np.linalg.norm(end - start))
+    return [] if length < _SHORTEST else [LinkBody(link, Cylinder(2.0 * radius, length), _along(start, end))]
+
+
+def _along(start: FloatArray, end: FloatArray) -> FloatArray:
+    """The pose in the middle of two points (3,) whose z goes from one to the other."""
+    z = (end - start) / np.linalg.norm(end - start)
+    helper = np.eye(3)[int(np.argmin(np.abs(z)))]
+    x = np.cross(helper, z)
+    x /= np.linalg.norm(x)
+    return pose_matrix((start + end) / 2.0, np.stack([x, np.cross(z, x), z], axis=1))
+
+
+def _fitted(model: RobotModel) -> list[LinkBody]:
+    """Capsules by the lengths of the arm, in the frame of its base."""
+    arm: Arm = model.arm
+    placed = np.eye(4)
+    if isinstance(arm, PlacedArm):
+        placed, arm = arm.base, arm.arm
+    match arm:
+        case OpwArm():
+            bodies = _of_opw(arm, model.foot_mm)
+        case UrArm():
+            bodies = _of_ur(arm)
+        case ScaraArm():
+            bodies = _of_scara(arm, float(model.limits[2, 1] - model.limits[2, 0]))
+        case _:
+            return _of_chain(model)
+    return [LinkBody(body.link, body.shape, placed @ body.at) for body in bodies]
+
+
+def _of_opw(arm: OpwArm, foot_mm: float) -> list[LinkBody]:
+    """Straight up over axis 1: the foot, the column to axis 2, the upper arm, the elbow and the forearm, which joint 4
+    turns from a third of its way on, the wrist, and a disc that ends at the flange."""
+    reach = math.hypot(arm.a1 + arm.c2 + math.hypot(arm.a2, arm.c3), arm.b)
+    radius = {name: share * reach for name, share in SHARES.items()}
+    foot, shoulder = np.array([0.0, 0.0, foot_mm]), np.array([arm.a1, 0.0, arm.c1])
+    upper, elbow = np.array([arm.a1, arm.b, arm.c1]), np.array([arm.a1, arm.b, arm.c1 + arm.c2])
+    bend = elbow + np.array([arm.a2, 0.0, 0.0])
+    wrist = bend + np.array([0.0, 0.0, arm.c3])
+    flange = wrist + np.array([0.0, 0.0, arm.c4])
+    split = bend + ELBOW_SHARE * (wrist - bend)
+    top = foot + 0.5 * (np.array([0.0, 0.0, arm.c1]) - foot)
+    disc = min(0.4 * arm.c4, 2.0 * radius["flange"])
+    bodies = _cylinder(0, foot, top, radius["foot"])
+    bodies.append(capsule_between(1, top, shoulder, radius["shoulder"]))
+    if abs(arm.b) > radius["shoulder"]:
+        bodies.append(capsule_between(1, shoulder, upper, radius["upper"]))
+    bodies.append(capsule_between(2, upper, elbow, radius["upper"]))
+    bodies.append(capsule_between(3, elbow, bend, radius["fore"]))
+    bodies.append(capsule_between(3, bend, split, radius["fore"]))
+    bodies.append(capsule_between(4, split, wrist, radius["wrist"]))
+    bodies.append(capsule_between(5, wrist, wrist + 0.3 * (flange - wrist), 0.9 * radius["wrist"]))
+    return [*bodies, *_cylinder(6, flange - np.array([0.0, 0.0, disc]), flange, radius["flange"])]
+
+
+def _of_ur(arm: UrArm) -> list[LinkBody]:
+    """The upper arm beside axis 1, the forearm back before it, three wrist joints of one size.
+
+    How far the two tubes lie beside axis 1 is not part of the kinematics: the makers' description has them at about
+    d4 and nothing (offsets of the visual meshes of the UR5e: 138 and 7 mm beside 133 mm of d4).
+    """
+    reach = math.hypot(arm.a2 + arm.a3, arm.d4)
+    radius = {name: share * reach for name, share in SHARES.items()}
+    points, directions = arm.axes(np.zeros(6))
+    side = directions[1]
+    shoulder, elbow, fore_end = points[1], points[2], points[3]
+    wrist = fore_end + side * arm.d4
+    below = wrist + directions[4] * arm.d5
+    flange = arm.forward(np.zeros(6))[:3, 3]
+    outside = side * arm.d4 * np.sign(arm.d4)
+    disc = 2.0 * radius["flange"] * 0.5
+    last = (flange - below) / max(float(np.linalg.norm(flange - below)), 1e-9)
+    return [
+        *_cylinder(0, np.zeros(3), np.array([0.0, 0.0, 0.5 * arm.d1]), radius["foot"]),
+        capsule_between(1, np.array([0.0, 0.0, 0.5 * arm.d1]), shoulder, 0.8 * radius["upper"]),
+        capsule_between(2, shoulder, shoulder + outside, 0.8 * radius["upper"]),
+        capsule_between(2, shoulder + outside, elbow + outside, 0.8 * radius["upper"]),
+        capsule_between(3, elbow + outside, elbow, 0.8 * radius["fore"]),
+        capsule_between(3, elbow, fore_end, 0.8 * radius["fore"]),
+        capsule_between(4, fore_end, wrist, radius["wrist"]),
+        capsule_between(5, wrist, below, radius["wrist"]),
+        *_cylinder(6, flange - last * disc, flange, radius["flange"]),
+    ]
+
+
+def _of_scara(arm: ScaraArm, stroke: float) -> list[LinkBody]:
+    """Both links stretched out along x over the flange at the top of its stroke, and the quill that goes through."""
+    reach = arm.l1 + arm.l2
+    radius = {name: share * reach for name, share in SHARES.items()}
+    level = arm.height + radius["upper"]
+    axis, elbow, tool = (np.array([x, 0.0, level]) for x in (0.0, arm.l1, reach))
+    low, high = np.array([reach, 0.0, arm.height]), np.array([reach, 0.0, arm.height + stroke])
+    disc = np.array([0.0, 0.0, radius["flange"]])
+    return [
+        *_cylinder(0, np.zeros(3), np.array([0.0, 0.0, max(arm.height - radius["upper"], 0.0)]), radius["foot"]),
+        capsule_between(1, axis, elbow, radius["upper"]),
+        capsule_between(2, elbow, tool, 0.8 * radius["upper"]),
+        *_cylinder(3, low + disc, high + disc, 0.5 * radius["flange"]),
+        *_cylinder(4, low, low + disc, 0.6 * radius["flange"]),
+    ]
+
+
+def _of_chain(model: RobotModel) -> list[LinkBody]:
+    """From joint to joint, by the origins of the joints in the URDF, and on to its tip."""
+    points, _ = model.arm.axes(np.zeros(model.axes))
+    if model.urdf is not None:
+        from rpl.emulator.chains import joint_origins
+
+        points = joint_origins(model.urdf.chain, model.urdf.zero)
+    ends = np.vstack([np.zeros(3), points, model.arm.forward(np.zeros(model.axes))[:3, 3]])
+    reach = float(np.linalg.norm(np.diff(ends, axis=0), axis=1).sum())
+    last = len(ends) - 2
+    bodies = []
+    for link, (start, end) in enumerate(itertools.pairwise(ends)):
+        radius = reach * (SHARES["upper"] + (SHARES["wrist"] - SHARES["upper"]) * link / max(last, 1))
+        way = end - start
+        length = float(np.linalg.norm(way))
+        if link == last and length > radius:
+            end = end - way * (radius / length)  # so that it ends at the tip
+        bodies.append(capsule_between(link, start, end, min(radius, max(length, 0.5 * radius))))
+    return bodies
