@@ -22,6 +22,8 @@ MODULES = (".mod", ".modx", ".sys", ".sysx")
 MAIN_TASK = "T_ROB1"
 VOLUMES = ("home", "temp", "release", "system", "options", "backup", "internal", "syspar", "ramdisk")
 _ROUTINE = re.compile(r"(?im)^\s*(?:LOCAL\s+)?(?:PROC|TRAP|FUNC\s+\w+)\s+([A-Za-z]\w*)")
+_MAIN = re.compile(rb"(?i)\bPROC\s+main\s*\(")
+_WITHOUT_VALUES = re.compile(rb"(?im)^\s*PROC\s+([A-Za-z]\w*)\s*\(\s*\)")
 _MODULE = re.compile(r"(?im)^\s*MODULE\s+([A-Za-z]\w*)\s*(\([^)]*\))?")
 
 
@@ -110,11 +112,20 @@ class Inside:
         if module.name.lower() in modules and not replace:
             raise RefusalError(400, UNKNOWN, f"there is a module {module.name} in {task}")
         modules[module.name.lower()] = module
+        self._look_anew(module.name)
         return module
 
     def unload(self, task: str, name: str) -> None:
         if self.task(task).pop(name.lower(), None) is None:
             raise RefusalError(404, UNKNOWN, f"there is no module {name} in {task}")
+        self._look_anew()
+
+    def _look_anew(self, loaded: str = "") -> None:
+        """Data and routines are those of the modules in the memory now; those of a module that was just loaded are as
+        its text says, other modules keep theirs. M: the program pointer goes to main. Where the modules do not fit
+        together nothing of them can be asked for or run."""
+        if self.select(loaded):
+            self.cabinet.stop()
 
     def module(self, task: str, name: str) -> Loaded:
         found = self.task(task).get(name.lower())
@@ -122,12 +133,22 @@ class Inside:
             raise RefusalError(404, UNKNOWN, f"there is no module {name} in {task}")
         return found
 
-    def select(self) -> list[Diagnostic]:
-        """The program pointer of all tasks goes to main."""
+    @property
+    def has_main(self) -> bool:
+        """Is there a routine for the program pointer to go to?"""
+        return any(_MAIN.search(one.data) for modules in self.tasks.values() for one in modules.values())
+
+    def select(self, loaded: str = "") -> list[Diagnostic]:
+        """The program pointer of all tasks goes to main; without one data can be asked for all the same. `loaded`: see
+        `_look_anew`."""
         texts = {f"{task}/{one.file}": one.data for task, modules in self.tasks.items() for one in modules.values()}
-        if not any(re.search(rb"(?i)\bPROC\s+main\s*\(", data) for data in texts.values()):
+        first = next((found for data in texts.values() if (found := _WITHOUT_VALUES.search(data))), None)
+        if not self.has_main and first is None:
+            self.cabinet.stop()
             return []
-        return self.cabinet.select_sources([source_from_bytes(name, data) for name, data in texts.items()], "main")
+        entry = "main" if self.has_main or first is None else first[1].decode("latin-1")
+        sources = [source_from_bytes(name, data) for name, data in texts.items()]
+        return self.cabinet.select_sources(sources, entry, loaded)
 
     # ---- mastership
 

@@ -134,6 +134,8 @@ def _start(inside: Inside, request: Asked, _: re.Match[str]) -> Page:
         raise RefusalError(403, UNKNOWN, "a program is started from outside in automatic mode only")
     if not cabinet.motors_on or cabinet.emergency_stop:
         raise RefusalError(403, UNKNOWN, "the motors are off")
+    if not inside.has_main:
+        raise RefusalError(403, UNKNOWN, "the program cannot be started: there is no main")
     try:
         cabinet.start()
     except NotDoneError as error:

@@ -186,7 +186,8 @@ class RwsLink:
 
     def lock(self) -> None:
         """In manual mode the controller gives it only to whom the pendant lets: then it is refused."""
-        checked(self.session.post(self.generation.path("take")), "the mastership of RAPID")
+        what = "the mastership of RAPID (a program that was killed holds it for up to five minutes)"
+        checked(self.session.post(self.generation.path("take")), what)
 
     def unlock(self) -> None:
         checked(self.session.post(self.generation.path("give")), "the mastership of RAPID")

@@ -88,12 +88,13 @@ _SECOND_DATA = re.compile(r"/rw/rapid/symbol/RAPID/(.+)/data;value")
 
 @dataclass
 class Group:
-    """One subscription: its resources, and the events that wait to be sent."""
+    """One subscription: its resources, and the events that wait to be sent. `is_heard`: its websocket is open."""
 
     number: int
     session: str
     resources: tuple[str, ...]
     seen: dict[str, Thing]
+    is_heard: bool = False
     events: asyncio.Queue[bytes] = field(default_factory=asyncio.Queue)
 
 
@@ -119,6 +120,10 @@ class Subscriptions:
     def drop(self, number: int) -> None:
         if self.groups.pop(number, None) is None:
             raise RefusalError(404, UNKNOWN, f"there is no subscription {number}")
+
+    def forget(self, session: str) -> None:
+        """A session is over: its subscriptions too."""
+        self.groups = {number: group for number, group in self.groups.items() if group.session != session}
 
     async def look(self) -> None:
         """Goes on until the controller is switched off."""

@@ -131,9 +131,9 @@ class Cabinet:
         sources = [source_from_bytes(name, self.store.kept(name)) for name in names]
         return self.select_sources(sources, entry)
 
-    def select_sources(self, sources: Sequence[Source], entry: str | None = None) -> list[Diagnostic]:
+    def select_sources(self, sources: Sequence[Source], entry: str | None = None, anew: str = "") -> list[Diagnostic]:
         """The same for texts that are no files of the controller. They are read before anything is held: in another
-        thread, the controller goes on answering meanwhile."""
+        thread, the controller goes on answering meanwhile. `anew`: a module whose data begin as its text says."""
         read, diagnostics = self._read_sources(sources)
         if diagnostics.has_errors:
             return list(diagnostics.of(Severity.ERROR))
@@ -141,21 +141,21 @@ class Cabinet:
         with self.lock:
             for name, value in self._signals.items():
                 simulation.set_input(name, value)
-            self._keep_data(simulation)
+            self._keep_data(simulation, anew.lower())
             self._stand(simulation)
             self._simulation = simulation
             self.program = entry or sources[0].path
             self.phase = "stopped"
             return []
 
-    def _keep_data(self, simulation: Simulation) -> None:
+    def _keep_data(self, simulation: Simulation, anew: str) -> None:
         """Data that the controller keeps from one run to the next has its last value."""
         if self._simulation is None or not self._simulation.globals:
             return
         old = zip(self._simulation.program.slots, self._simulation.globals, strict=False)
         for name, value in {slot.qualified: value for slot, value in old if slot.kept}.items():
             slot = simulation.program.variable_slot(name)
-            if slot is not None:
+            if slot is not None and not (anew and name.lower().startswith(f"{anew}.")):
                 simulation.variable(name)  # has given all data its first value
                 simulation.globals[slot] = value
 
