@@ -1,0 +1,121 @@
+"""`rpl view`: see a run of a cell, as a page that plays from disk."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING
+
+import click
+
+from rpl.cli.files import force_option, refuse_others
+from rpl.cli.limits import limit_options, limits_of
+from rpl.cli.output import (
+    arm_of,
+    collector,
+    from_option,
+    json_option,
+    paths_argument,
+    print_diagnostics,
+    print_json,
+    read_paths,
+    robot_named,
+    robots_exist,
+    say,
+    verbose_option,
+    waiting,
+    write_file,
+)
+from rpl.diagnostics import Severity
+from rpl.errors import UsageError
+
+if TYPE_CHECKING:
+    from rpl.runtime.limits import Limits
+    from rpl.workcell.record import CellRun
+
+
+@click.command("view")
+@paths_argument
+@from_option
+@click.option("--robot", metavar="R", help="Arm: a name or a .toml file.")
+@click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, bodies.")
+@click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
+@click.option(
+    "--save",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="F.html",
+    help="Write a page that plays the run and opens from disk.",
+)
+@limit_options
+@force_option
+@verbose_option
+@json_option
+def command(
+    paths: Sequence[str],
+    dialect: str | None,
+    robot: str | None,
+    cell: str | None,
+    entry: str | None,
+    save: Path | None,
+    max_time: float | None,
+    max_steps: int | None,
+    max_events: int | None,
+    as_json: bool,
+) -> int:
+    """See a program run in its cell: arms, tools, parts, path, signals and lines over time.
+
+    Exit status 0 when the page is written, whatever the run came to; 1 for a program with errors.
+    """
+    if save is None:
+        raise UsageError("where to? --save F.html writes a page")
+    robots_exist(robot)
+    refuse_others([save])
+    run = _run(paths, dialect, robot, cell, entry, limits_of(max_time, max_steps, max_events))
+    if run is None:
+        return 1
+    from rpl.view.document import view_document
+    from rpl.view.page import view_page
+    from rpl.view.scene import scene_of
+
+    with waiting("drawing"):
+        data = view_page(view_document(scene_of(run), _title(run))).encode("utf-8")
+    write_file(save, data)
+    if as_json:
+        print_json({"status": run.status, "time_s": round(run.time_s, 6), "files": [{"path": str(save)}]})
+    else:
+        say(f"{run.status} after {run.time_s:.3f} s; wrote {save} ({len(data) / 1e6:.1f} MB)")
+    return 0
+
+
+def _run(
+    paths: Sequence[str], dialect: str | None, robot: str | None, cell: str | None, entry: str | None, limits: Limits
+) -> CellRun | None:
+    """The run; None for a program with errors, which are said."""
+    from rpl.cell.layout import Layout, RobotPlace
+    from rpl.proof.prove import load_cell
+    from rpl.simulation import run_program
+    from rpl.workcell.record import CellRun, RobotRun
+
+    surroundings, diagnostics = load_cell(cell), collector()
+    read = read_paths(paths, dialect, diagnostics)
+    print_diagnostics(diagnostics, Severity.WARNING)
+    if diagnostics.has_errors:
+        say("not started: errors in the program", err=True)
+        return None
+    model = robot_named(robot or arm_of(read))
+    if model is not None and surroundings is not None:
+        model = model.among(surroundings.mechanisms, surroundings.path)
+    with waiting("running"):
+        result = run_program(read.program, model, surroundings, entry, limits=limits)
+    place = RobotPlace(arm=model.name if model is not None else "", programs=tuple(paths))
+    fault = f"{result.fault.origin.place}{result.fault.message}" if result.fault is not None else ""
+    robots = (RobotRun(place, model, read.program, result),)
+    return CellRun(Layout(robots=(place,)), robots, status=result.status, time_s=result.time_s, fault=fault)
+
+
+def _title(run: CellRun) -> str:
+    """The cell's name, else that of the program."""
+    if run.layout.path:
+        return PurePath(run.layout.path).stem
+    names = [PurePath(path).stem for one in run.robots for path in one.place.programs]
+    return ", ".join(dict.fromkeys(names)) or "run"

@@ -1,0 +1,116 @@
+"""Where everything of a run is at a time: for pictures and for the live view; the page does the same in its script."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rpl.emulator.rotations import FloatArray
+from rpl.view.bodies import Drawn, bodies_of, robot_of
+from rpl.view.screws import Screws, screws_of
+from rpl.view.tracks import Track, track_of
+from rpl.workcell.record import pose_between
+
+if TYPE_CHECKING:
+    from rpl.workcell.record import CellRun
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Two bodies that touch: at `t` s, `a` with `b`, at a line, so deep (mm), around a point in the cell."""
+
+    t: float
+    a: str
+    b: str
+    file: str
+    line: int
+    depth_mm: float
+    point: tuple[float, float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scene:
+    """A run with all that is needed to draw it."""
+
+    run: CellRun
+    bodies: tuple[Drawn, ...]
+    tracks: tuple[Track, ...]
+    screws: tuple[Screws | None, ...]
+    collisions: tuple[Contact, ...] = ()
+
+    def links_at(self, robot: int, joints: FloatArray) -> FloatArray:
+        """Displacements of a robot's links from their places at zero (links + 1, 4, 4), in the cell."""
+        screws = self.screws[robot]
+        assert screws is not None
+        return np.asarray(self.run.robots[robot].place.base @ screws.displacements(joints[None])[0])
+
+    def flange_at(self, robot: int, joints: FloatArray) -> FloatArray:
+        """The flange (4, 4) of a robot in the cell."""
+        screws = self.screws[robot]
+        assert screws is not None
+        return np.asarray(self.links_at(robot, joints)[-1] @ screws.flange)
+
+    def joints_at(self, t: float) -> list[FloatArray | None]:
+        """Joints of all robots at a time; None for those without a model."""
+        return [
+            track.joints_at(t) if screws is not None else None
+            for track, screws in zip(self.tracks, self.screws, strict=True)
+        ]
+
+    def poses_at(self, t: float, joints: Sequence[FloatArray | None] | None = None) -> list[FloatArray]:
+        """The pose (4, 4) in the cell of each of the bodies at a time; `joints` in place of those of the run."""
+        given = self.joints_at(t) if joints is None else joints
+        links = [None if q is None else self.links_at(number, q) for number, q in enumerate(given)]
+        parts = self._parts_at(t, given)
+        found = []
+        for body in self.bodies:
+            carried = links[body.robot] if body.robot >= 0 else None
+            if body.part >= 0:
+                found.append(parts[body.part] @ body.at)
+            elif carried is None:
+                found.append(body.at)
+            else:
+                found.append(carried[body.link] @ self._opened(body, t))
+        return found
+
+    def _parts_at(self, t: float, joints: Sequence[FloatArray | None]) -> list[FloatArray]:
+        run, found = self.run, []
+        holders = {one.name: robot_of(run, one.robot) for one in run.layout.grippers}
+        for part in run.layout.parts:
+            places = run.places_of(part.name)
+            pose, holder = pose_between(places, t) if places else (part.at, "")
+            if holder and (held := joints[holders[holder]]) is not None:
+                pose = self.flange_at(holders[holder], held) @ pose
+            found.append(pose)
+        return found
+
+    def _opened(self, body: Drawn, t: float) -> FloatArray:
+        """The place of a body on its link; a jaw is off by half of the opening."""
+        if body.kind != "jaw":
+            return body.at
+        shifted = body.at.copy()
+        shifted[:3, 3] += body.at[:3, 1] * (body.side * self.width_at(body.gripper, t) / 2.0)
+        return shifted
+
+    def width_at(self, gripper: int, t: float) -> float:
+        """How far the jaws of a gripper are apart, mm."""
+        found = self.run.layout.grippers[gripper]
+        width = first_width(found.opening)
+        for one in self.run.openings:
+            if one.gripper == found.name and one.t <= t + 1e-9:
+                width = one.width_mm
+        return width
+
+
+def first_width(opening: tuple[float, float]) -> float:
+    """What jaws are drawn at before anything is known: open, but not wider than looks like a gripper."""
+    return float(min(opening[1], 120.0))
+
+
+def scene_of(run: CellRun, collisions: Sequence[Contact] = ()) -> Scene:
+    """All that is needed to draw a run."""
+    screws = tuple(None if one.model is None else screws_of(one.model) for one in run.robots)
+    return Scene(run, bodies_of(run), tuple(track_of(one) for one in run.robots), screws, tuple(collisions))

@@ -1,0 +1,83 @@
+"""Where things are at a time: links by screws, tools, parts in the hand and falling, jaws, lines."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rpl.emulator.model import load_robot, robot_names
+from rpl.view.scene import Scene, scene_of
+from rpl.view.screws import screws_of
+from tests.view.cells import IN_HAND, cell_run
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    return scene_of(cell_run())
+
+
+@pytest.mark.parametrize("name", robot_names())
+def test_screws_bring_the_flange_where_forward_kinematics_has_it(name: str) -> None:
+    model = load_robot(name)
+    joints = np.random.default_rng(7).uniform(-170.0, 170.0, (20, model.axes))
+    screws = screws_of(model)
+    found = screws.displacements(joints)
+    assert found.shape == (20, model.axes + 1, 4, 4)
+    assert found[:, -1] @ screws.flange == pytest.approx(model.forward(joints), abs=1e-8)
+    assert found[:, 0] == pytest.approx(np.broadcast_to(np.eye(4), (20, 4, 4)))
+
+
+def pose_of(scene: Scene, name: str, t: float, which: int = 0) -> np.ndarray:
+    poses = scene.poses_at(t)
+    return [pose for body, pose in zip(scene.bodies, poses, strict=True) if body.name == name][which]
+
+
+def test_a_part_rests_goes_with_the_flange_falls_and_rests(scene: Scene) -> None:
+    assert pose_of(scene, "plug", 0.5)[:3, 3] == pytest.approx([500.0, 0.0, 30.0])
+    joints = scene.joints_at(1.5)[0]
+    assert joints is not None
+    assert pose_of(scene, "plug", 1.5) == pytest.approx(scene.flange_at(0, joints) @ IN_HAND)
+    assert pose_of(scene, "plug", 2.25)[:3, 3] == pytest.approx([400.0, 0.0, 230.0])
+    assert pose_of(scene, "plug", 99.0)[:3, 3] == pytest.approx([400.0, 0.0, 30.0])
+
+
+def test_jaws_stand_as_far_apart_as_the_gripper_is_open(scene: Scene) -> None:
+    for t, width in ((0.5, 120.0), (1.5, 30.0), (3.0, 80.0)):
+        left, right = (pose_of(scene, "jaws jaw", t, side)[:3, 3] for side in (0, 1))
+        inner = np.linalg.norm(left - right) - 6.0  # two halves of their thickness
+        assert inner == pytest.approx(width)
+
+
+def test_the_tool_goes_where_the_run_says(scene: Scene) -> None:
+    run = scene.run.robots[0]
+    track = scene.tracks[0]
+    last = [event for event in run.result.trace if event.kind == "move"][-1]
+    assert track.tool[-1] - run.place.base[:3, 3] == pytest.approx(last.data["xyz_mm"], abs=1e-3)
+    joints = track.joints_at(track.times[-1])
+    assert (scene.flange_at(0, joints) @ track.tool_at(track.times[-1]))[:3, 3] == pytest.approx(
+        track.tool[-1], abs=1e-6
+    )
+    assert track.speeds[track.times > 1.5].max() == pytest.approx(200.0, rel=0.05)  # $VEL.CP
+
+
+def test_joints_between_samples_are_those_of_the_plan(scene: Scene) -> None:
+    run, track = scene.run.robots[0], scene.tracks[0]
+    for event in run.result.trace:
+        for leg in event.legs:
+            for t in np.linspace(leg.start_s, leg.start_s + leg.duration_s, 37):
+                planned = leg.plan.joints_at(min(t - leg.start_s, leg.duration_s) + leg.offset_s)
+                assert track.joints_at(float(t)) == pytest.approx(planned, abs=0.1)
+
+
+@pytest.mark.parametrize(("t", "line"), [(0.0, 4), (1.0, 6), (2.5, 7)])
+def test_the_line_of_the_move_that_is_driven(scene: Scene, t: float, line: int) -> None:
+    found = scene.tracks[0].line_at(t)
+    assert found is not None
+    legs = {
+        event.origin.line: (event.legs[0].start_s, event.legs[-1].start_s + event.legs[-1].duration_s)
+        for event in scene.run.robots[0].result.trace
+        if event.legs
+    }
+    begin, end = legs[line]
+    assert begin <= t < end
+    assert found.line in (line, 5, 8)  # or of an output that was switched on the way
