@@ -7,12 +7,17 @@ beginning, in a cell in which nothing happens, on the arm that the backup names.
 take no time and nothing is out of reach; a program that asks for places or joints then gets the longest arm of its
 maker. The table says how many. Nothing is edited, and no cell file is written. How a run ended is
 one of CLASSES; the first ones are what a program can come to without its cell.
+
+Each program that stops at data to which no file of the project gives a value is run once more with such data assumed
+(`rpl run --assume-data`): it is counted by how it ended then, in classes `... with assumed data` of their own. A
+program whose file stands byte for byte in several projects is counted once.
 """
 
 from __future__ import annotations
 
 import argparse
 import csv
+import hashlib
 import json
 import multiprocessing
 import os
@@ -23,7 +28,7 @@ import time
 import traceback
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from pathlib import Path, PurePath
 from types import FrameType
@@ -34,6 +39,7 @@ from rpl.diagnostics import Diagnostics
 from rpl.emulator.robotfile import robot_summaries
 from rpl.errors import RplError
 from rpl.inventory.contents import Program, contents
+from rpl.inventory.outside import Outside
 from rpl.inventory.robots import arms_of
 from rpl.linking import link
 from rpl.linking.program import LinkedProgram
@@ -44,8 +50,9 @@ from rpl.runtime.trace import RunInterrupted, RunResult
 from rpl.simulation import MAIN, Simulation
 from rpl.source import read_source
 
-# What counts as run: the program came as far as a program comes without its cell.
-COUNTED = ("end", "waits for input", "unknown routine", "routine of the controller")
+# What counts as run: the program came as far as a program comes without its cell. What it waits for from outside is an
+# output or a datum that nothing in the project changes (rpl.inventory.outside).
+COUNTED = ("end", "waits for input", "waits for what is outside", "unknown routine", "routine of the controller")
 # A routine of the controller is one that its language or an option has and no backup can hold (a socket, a service, a
 # torque that is asked for): it is named. An endless loop is reported beside them and not counted.
 # A project without a program that people start (a library): named, and no entry program of the share.
@@ -67,6 +74,7 @@ CLASSES = (
     "crash",
     NO_ENTRY,
 )
+ASSUMED = " with assumed data"
 # Folders of a controller's own backup: what lies beside and below them is one project, however deep.
 _TREES = frozenset(("r1", "krc", "rapid", "steu"))
 # Statements of one run.
@@ -79,7 +87,8 @@ _IDLE_SHARE = 0.5  # a run whose last move or output lies this share of its time
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How one entry program ended. `what`: the input, routine or datum; `place` as file:line."""
+    """How one entry program ended. `what`: the input, routine or datum; `place` as file:line; `program`: where it
+    stands, `digest` of that file. The last ones: how many data were assumed, and how the program ended with them."""
 
     project: str
     language: str
@@ -91,6 +100,21 @@ class Outcome:
     time_s: float
     moves: int
     statements: int
+    program: str = ""
+    digest: str = ""
+    assumed: int = 0
+    assumed_kind: str = ""
+    assumed_what: str = ""
+    assumed_place: str = ""
+
+    def in_the_end(self) -> str:
+        """The class with assumed data: that of the program as it is, or one of its own."""
+        return f"{self.assumed_kind}{ASSUMED}" if self.assumed_kind else self.kind
+
+    @property
+    def counts(self) -> bool:
+        """Did it come as far as a program comes without its cell, perhaps with assumed data?"""
+        return (self.assumed_kind or self.kind) in COUNTED
 
 
 class _TooSlow(KeyboardInterrupt):
@@ -183,24 +207,86 @@ def measure(task: tuple[str, list[Path], float, float], whole: bool = False) -> 
         robot = next((one.robot for one in arms_of(read) if one.robot), "")
         program = settings_as_they_were(read.program, read.program, diagnostics)
         linked = at_any_depth(lambda: link(program))
-        return [_run_on_some_arm(name, read, linked, one, robot, max_time, seconds) for one in found.entries]
+        digests = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
+        project = _Project(name, read, linked, robot, max_time, seconds)
+        outcomes = [project.outcome(one) for one in found.entries]
+        return [replace(one, digest=digests.get(one.program.partition(":")[0], "")) for one in outcomes]
     except RplError as error:
         return [Outcome(name, "", "", "refused", str(error)[:120], "", "", 0.0, 0, 0)]
     except Exception:  # noqa: BLE001 (a traceback of ours is what this counts)
         return [Outcome(name, "", "", "crash", _where_ours(), "", "", 0.0, 0, 0)]
 
 
-def _run_on_some_arm(
-    name: str, read: ReadProgram, linked: LinkedProgram, one: Program, robot: str, max_time: float, seconds: float
-) -> Outcome:
-    """On the arm that the backup names; where none is named without one, and on the longest of the maker's where the
-    program asks for places or joints: `robot` then says that it is a guess."""
-    done = _run(name, read, linked, one, robot, max_time, seconds)
-    guess = _longest(done.language)
-    if robot or not guess or not _ASKS_FOR_AN_ARM.search(done.what):
-        return done
-    again = _run(name, read, linked, one, guess, max_time, seconds)
-    return replace(again, robot=f"{guess} (a guess)")
+@dataclass(slots=True)
+class _Project:
+    """A project that is ready to run; with assumed data it is linked once more when that is first needed."""
+
+    name: str
+    read: ReadProgram
+    linked: LinkedProgram
+    robot: str
+    max_time: float
+    seconds: float
+    with_data: LinkedProgram | None = None
+    outside: dict[int, Outside] = field(default_factory=dict)
+
+    def outcome(self, one: Program) -> Outcome:
+        """As it is; and with assumed data where it lacks data."""
+        done = self.on_some_arm(self.linked, one)
+        if done.kind != "unknown data":
+            return done
+        if self.with_data is None:
+            self.with_data = at_any_depth(lambda: link(self.linked.program, True))
+        again = self.on_some_arm(self.with_data, one)
+        kind, what, place = again.kind, again.what, again.place
+        again = replace(again, assumed_kind=kind, assumed_what=what, assumed_place=place)
+        return replace(again, kind=done.kind, what=done.what, place=done.place)
+
+    def on_some_arm(self, linked: LinkedProgram, one: Program) -> Outcome:
+        """On the arm that the backup names; where none is named without one, and on the longest of the maker's where
+        the program asks for places or joints: `robot` then says that it is a guess."""
+        done = self.run(linked, one, self.robot)
+        guess = _longest(done.language)
+        if self.robot or not guess or not _ASKS_FOR_AN_ARM.search(done.what):
+            return done
+        return replace(self.run(linked, one, guess), robot=f"{guess} (a guess)")
+
+    def run(self, linked: LinkedProgram, one: Program, robot: str) -> Outcome:
+        limits = replace(DEFAULTS, time_s=self.max_time, statements=_MOST_STATEMENTS)
+        said = Outcome(self.name, _language(self.read, one), one.name, "", "", one.place, robot, 0.0, one.moves, 0)
+        said = replace(said, program=one.place)
+
+        def run() -> RunResult:
+            simulation = Simulation(linked.program, robot or None, None, one.name, limits=limits, linked=linked)
+            try:
+                simulation.run()
+            except KeyboardInterrupt:
+                raise simulation.interrupted() from None
+            return simulation.result()
+
+        signal.signal(signal.SIGALRM, _end)
+        signal.setitimer(signal.ITIMER_REAL, self.seconds)
+        try:
+            result = at_any_depth(run)
+        except RunInterrupted as stopped:
+            kind, what = _of_limit(stopped.result)
+            return replace(_ended(said, stopped.result), kind=kind if kind != "limit" else "too slow", what=what)
+        except _TooSlow:
+            return replace(said, kind="too slow", what="before it began")
+        except RplError as error:
+            return replace(said, kind="refused", what=str(error)[:120])
+        except Exception:  # noqa: BLE001 (a traceback of ours is what this counts)
+            return replace(said, kind="crash", what=_where_ours())
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+        kind, what = classified(result, self.outside_of(linked))
+        return replace(_ended(said, result), kind=kind, what=what)
+
+    def outside_of(self, linked: LinkedProgram) -> Outside:
+        """What can only come from outside, for a linked program."""
+        if id(linked) not in self.outside:
+            self.outside[id(linked)] = Outside(linked.program)
+        return self.outside[id(linked)]
 
 
 @cache
@@ -211,40 +297,6 @@ def _longest(language: str) -> str:
     return max(arms, key=lambda one: (one.reach_mm or 0.0, one.name)).name if arms else ""
 
 
-def _run(
-    name: str, read: ReadProgram, linked: LinkedProgram, one: Program, robot: str, max_time: float, seconds: float
-) -> Outcome:
-    limits = replace(DEFAULTS, time_s=max_time, statements=_MOST_STATEMENTS)
-    language = _language(read, one)
-    said = Outcome(name, language, one.name, "", "", one.place, robot, 0.0, one.moves, 0)
-
-    def run() -> RunResult:
-        simulation = Simulation(linked.program, robot or None, None, one.name, limits=limits, linked=linked)
-        try:
-            simulation.run()
-        except KeyboardInterrupt:
-            raise simulation.interrupted() from None
-        return simulation.result()
-
-    signal.signal(signal.SIGALRM, _end)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    try:
-        result = at_any_depth(run)
-    except RunInterrupted as stopped:
-        kind, what = _of_limit(stopped.result)
-        return replace(_ended(said, stopped.result), kind=kind if kind != "limit" else "too slow", what=what)
-    except _TooSlow:
-        return replace(said, kind="too slow", what="before it began")
-    except RplError as error:
-        return replace(said, kind="refused", what=str(error)[:120])
-    except Exception:  # noqa: BLE001 (a traceback of ours is what this counts)
-        return replace(said, kind="crash", what=_where_ours())
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-    kind, what = classified(result)
-    return replace(_ended(said, result), kind=kind, what=what)
-
-
 def _end(number: int, frame: FrameType | None) -> None:
     raise _TooSlow
 
@@ -252,7 +304,10 @@ def _end(number: int, frame: FrameType | None) -> None:
 def _ended(said: Outcome, result: RunResult) -> Outcome:
     origin = result.fault.origin if result.fault is not None else None
     place = f"{PurePath(origin.file).name}:{origin.line}" if origin is not None and origin.source else said.place
-    return replace(said, place=place, time_s=result.time_s, moves=result.moves, statements=result.statements)
+    assumed = len(result.assumed or ())
+    return replace(
+        said, place=place, time_s=result.time_s, moves=result.moves, statements=result.statements, assumed=assumed
+    )
 
 
 def _language(read: ReadProgram, one: Program) -> str:
@@ -271,16 +326,16 @@ def _where_ours() -> str:
 # ---- how it ended
 
 
-def classified(result: RunResult) -> tuple[str, str]:
+def classified(result: RunResult, outside: Outside) -> tuple[str, str]:
     """The class of a run, and what it is about."""
     fault = result.fault
     if result.status in ("finished", "stopped"):
         return "end", result.status
     assert fault is not None  # every other end has its reason
     if result.status == "deadlock":
-        return _of_deadlock(result)
+        return _of_deadlock(result, outside)
     if result.status == "limit" or fault.code == "no-time":
-        return _of_limit(result)
+        return _of_limit(result, outside)
     text = fault.message[:120]
     named = text.partition("routine ")[2].partition(" ")[0]
     known = {
@@ -304,23 +359,29 @@ def _of_vendor(text: str) -> tuple[str, str]:
     return ("routine of the controller", found[1]) if found else ("unknown statement", text)
 
 
-def _of_deadlock(result: RunResult) -> tuple[str, str]:
+def _of_deadlock(result: RunResult, outside: Outside) -> tuple[str, str]:
     """Who waits for what for good."""
     for one in result.awaited:
         if one.inputs and one.kind in ("condition", ""):
             return "waits for input", one.inputs[0][0]
+    for one in result.awaited:
+        if one.kind in ("condition", "") and (names := outside.names(one.origin)):
+            return "waits for what is outside", ", ".join(names)
     if any(one.kind == "answer" for one in result.awaited):
         return "waits for the operator", next(one.subject for one in result.awaited if one.kind == "answer")
     return "waits for something else", result.fault.message[:120] if result.fault is not None else ""
 
 
-def _of_limit(result: RunResult) -> tuple[str, str]:
+def _of_limit(result: RunResult, outside: Outside | None = None) -> tuple[str, str]:
     """A run without an end: one that polls an input, and has done nothing else for long, waits for it."""
     done = max((event.t for event in result.trace if event.kind in ("move", "output")), default=0.0)
     for one in result.awaited:
         asked = [name for name, moment in one.inputs if moment >= done and moment >= result.time_s * _IDLE_SHARE]
         if asked and done <= result.time_s * _IDLE_SHARE:
             return "waits for input", asked[0]
+    for one in result.awaited:
+        if outside is not None and done <= result.time_s * _IDLE_SHARE and (names := outside.names(one.origin)):
+            return "waits for what is outside", ", ".join(names)
     if _comes_round(result):
         return "loops", ""
     text = result.fault.message[:120] if result.fault is not None else ""
@@ -340,42 +401,70 @@ def _comes_round(result: RunResult) -> bool:
 
 
 def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    """Counts by class and language, and the share."""
+    """Counts by class and language, and both shares."""
     languages = sorted({one.language for one in outcomes})
-    counts = Counter((one.kind, one.language) for one in outcomes)
-    width = max((len(name) for name in CLASSES), default=0) + 2
-    yield "".ljust(width) + "".join(name[:9].rjust(10) for name in (*languages, "all"))
-    for kind in CLASSES:
-        row = [counts[kind, language] for language in languages]
-        if any(row):
-            yield kind.ljust(width) + "".join(str(count).rjust(10) for count in (*row, sum(row)))
-    for title, of in (("entries", CLASSES[:-1]), ("counted", COUNTED)):
-        row = [sum(one.language == each and one.kind in of for one in outcomes) for each in languages]
-        yield title.ljust(width) + "".join(str(count).rjust(10) for count in (*row, sum(row)))
-    shares = [share([one for one in outcomes if one.language == each]) for each in languages]
-    yield "share, %".ljust(width) + "".join(f"{one:.1f}".rjust(10) for one in (*shares, share(outcomes)))
+    counts = Counter((one.in_the_end(), one.language) for one in outcomes)
+    classes = (*CLASSES[:-1], *(kind + ASSUMED for kind in CLASSES), NO_ENTRY)
+    width = max(len(name) for name in classes) + 2
+
+    def row(title: str, cells: Iterable[str]) -> str:
+        return title.ljust(width) + "".join(cell.rjust(10) for cell in cells)
+
+    yield row("", (name[:9] for name in (*languages, "all")))
+    for kind in classes:
+        found = [counts[kind, language] for language in languages]
+        if any(found):
+            yield row(kind, map(str, (*found, sum(found))))
+    groups = [*([one for one in outcomes if one.language == each] for each in languages), outcomes]
+    yield row("entries", (str(len(_entries(group))) for group in groups))
+    yield row("counted as they are", (str(sum(one.kind in COUNTED for one in group)) for group in groups))
+    yield row("counted with assumed data", (str(sum(one.counts for one in group)) for group in groups))
+    yield row("share as they are, %", (f"{share(group):.1f}" for group in groups))
+    yield row("share with assumed data, %", (f"{share(group, True):.1f}" for group in groups))
     guessed = sum(one.robot.endswith("(a guess)") for one in outcomes)
     named = sum(bool(one.robot) for one in outcomes) - guessed
     yield f"on the arm that the backup names {named}, on a guessed one {guessed}, without an arm the others"
+    needed = [one.assumed for one in outcomes if one.assumed]
+    yield f"{len(needed)} programs with assumed data, {sum(needed)} data in all, at most {max(needed, default=0)}"
 
 
-def share(outcomes: Sequence[Outcome]) -> float:
-    """Of the entries that count, percent."""
-    entries = [one for one in outcomes if one.kind != NO_ENTRY]
-    return 100.0 * sum(one.kind in COUNTED for one in entries) / max(len(entries), 1)
+def share(outcomes: Sequence[Outcome], assumed: bool = False) -> float:
+    """Of the entries that count, percent. assumed: with assumed data."""
+    entries = _entries(outcomes)
+    return 100.0 * sum(one.counts if assumed else one.kind in COUNTED for one in entries) / max(len(entries), 1)
+
+
+def _entries(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    return [one for one in outcomes if one.kind != NO_ENTRY]
+
+
+def without_copies(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    """Each program once: one of the same name whose file is the same, byte for byte, is left out."""
+    seen: dict[object, Outcome] = {}
+    for number, one in enumerate(outcomes):
+        seen.setdefault((one.language, one.entry, one.digest) if one.digest else number, one)
+    return list(seen.values())
 
 
 def causes(outcomes: Iterable[Outcome], top: int) -> Iterator[str]:
     """What stops programs, by how many it stops."""
-    found = Counter((one.kind, one.what) for one in outcomes if one.kind not in COUNTED)
+    found = Counter(_ending(one)[:2] for one in outcomes if not one.counts)
     for (kind, what), times in found.most_common(top):
         yield f"{times:5} {kind}: {what}"
 
 
 def failures(outcomes: Iterable[Outcome]) -> Iterator[str]:
     for one in outcomes:
-        if one.kind not in COUNTED:
-            yield f"{one.project}: {one.entry}: {one.kind}: {one.what} at {one.place}"
+        if not one.counts:
+            kind, what, place = _ending(one)
+            yield f"{one.project}: {one.entry}: {kind}: {what} at {place}"
+
+
+def _ending(one: Outcome) -> tuple[str, str, str]:
+    """How it ended in the end: class, what and place."""
+    if one.assumed_kind:
+        return one.in_the_end(), one.assumed_what, one.assumed_place
+    return one.kind, one.what, one.place
 
 
 class _Rows:
@@ -415,8 +504,11 @@ def main() -> None:
             outcomes += done
             rows.add(done)
             print(f"{number}/{len(tasks)} projects, {len(outcomes)} programs", end="\r", file=sys.stderr)
+    copies = len(outcomes)
+    outcomes = without_copies(outcomes)
     for line in (*table(outcomes), *causes(outcomes, options.top), *failures(outcomes)):
         print(line)
+    print(f"{copies - len(outcomes)} copies of programs are left out")
     print(f"{len(tasks)} projects in {time.monotonic() - begun:.0f} s")
     if options.json is not None:
         options.json.write_text(json.dumps([asdict(one) for one in outcomes], indent=1, ensure_ascii=False), "utf-8")

@@ -104,7 +104,10 @@ class Simulation(Machine):
             limits = replace(limits, time_s=max_time_s)
         if max_statements is not None:
             limits = replace(limits, statements=max_statements)
-        linked = self.program = linked if linked is not None else link(program)
+        if linked is None:
+            asked = cell is not None and cell.assume_data
+            linked = link(program, asked, cell.variables if cell is not None else ())
+        self.program, program = linked, linked.program
         driven = controller_named(controller) if isinstance(controller, str) else controller
         surroundings = cell if cell is not None else NoCell()
         others = tuple(model for one in further if (model := _model(one)) is not None)

@@ -88,7 +88,7 @@ class RoutineMeaning:
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Everything a cell file says."""
+    """Everything a cell file says. `assume_data`: data without a value gets one when it is first read."""
 
     inputs: tuple[Input, ...] = ()
     reactions: tuple[Reaction, ...] = ()
@@ -103,6 +103,7 @@ class Cell:
     external: tuple[float | None, ...] | None = None
     analog: tuple[AnalogSetting, ...] = ()
     routines: Mapping[str, RoutineMeaning] = field(default_factory=dict)  # by folded name
+    assume_data: bool = False
 
 
 def read_cell(path: str | Path) -> Cell:
@@ -133,6 +134,7 @@ def parse_cell(text: str, path: str = "cell") -> Cell:
 _TOP = frozenset(
     (
         "seed",
+        "assume_data",
         "joints",
         "external",
         "input",
@@ -181,6 +183,9 @@ class _Reader:
         seed = table.get("seed", 1)
         if not isinstance(seed, int) or isinstance(seed, bool):
             raise self.wrong("seed", "must be a whole number")
+        assume = table.get("assume_data", False)
+        if not isinstance(assume, bool):
+            raise self.wrong("assume_data", "must be true or false")
         return Cell(
             tuple(inputs),
             tuple(self.reaction(key, row) for key, row in self.rows(table, "reaction")),
@@ -195,6 +200,7 @@ class _Reader:
             self.external(table),
             tuple(self.analog(table.get("analog", {}))),
             dict(self.routine(key, row) for key, row in self.rows(table, "routine")),
+            assume,
         )
 
     def system(self, name: str, value: Value) -> None:

@@ -83,7 +83,8 @@ def explore_backup(
     tight = replace(limits, statements=_STATEMENTS)
     around = cell if cell is not None else NoCell()
     with counting("exploring", len(starts)) as tell:
-        result = at_any_depth(lambda: drive(program, link(program), starts, stubs, around, model, tight, cells, tell))
+        linked = at_any_depth(lambda: link(program, around.assume_data, around.variables))
+        result = at_any_depth(lambda: drive(linked, starts, stubs, around, model, tight, cells, tell))
     if as_json:
         print_json(result.as_json())
     else:
@@ -124,6 +125,9 @@ def _starts(read: ReadProgram, found: Contents, entry: str | None) -> list[Start
 
 
 def _lines(result: Drive) -> Iterator[str]:
+    assumed = sum(len(one.assumed) for one in result.programs)
+    if assumed:
+        yield f"rests on {counted(assumed, 'assumed value')} of data to which nothing in the project gives one"
     for one in result.programs:
         yield from _program(one)
     yield f"all programs: {result.reach.as_text()}"
@@ -141,6 +145,7 @@ def _program(one: Driven) -> Iterator[str]:
     reached = f"{one.reach.reached} of {counted(one.reach.statements, 'statement')}"
     ended = "; more cells might show more (--max-cells)" if one.ended else ""
     yield f"{one.name}: reached {reached} in {counted(one.cells, 'run')}{ended}"
+    yield from (f"  assumed: {_at(place)}: {name} = {value}" for name, value, place in one.assumed)
     for kind, word in (("fault", "fault"), ("missing", "missing"), ("waits", "stands for good")):
         yield from (f"  {word}: {_ending(each)}" for each in one.of(kind))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -34,7 +35,7 @@ from rpl.diagnostics import Code, Diagnostic, Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.facts.motion.pulsecounts import report_assumed, report_stations
 from rpl.runtime.trace import RunInterrupted
-from rpl.showing import printable
+from rpl.showing import counted, printable
 
 INTERRUPTED = 130
 
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from rpl.project import ReadProgram
     from rpl.report.dynamics import RunDynamics
     from rpl.report.times import RunTimes
+    from rpl.runtime.assumed import Assumed
     from rpl.simulation import RunResult
 
 
@@ -62,6 +64,9 @@ if TYPE_CHECKING:
     metavar="F.toml",
     help="Write a cell file to be edited, with what the programs ask of the world, and do not run.",
 )
+@click.option(
+    "--assume-data", is_flag=True, help="Go on where data of the controller has no value: assume one, and report each."
+)
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @exploring_options
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
@@ -77,6 +82,7 @@ def command(
     robots: Sequence[str],
     cell: str | None,
     new_cell: Path | None,
+    assume_data: bool,
     entry: str | None,
     explore: int | None,
     trace: Path | None,
@@ -105,7 +111,7 @@ def command(
     _can_be_written(trace, plot)
     limits = limits_of(max_time if explore is None else limit_of_a_run(max_time), max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
-    surroundings, diagnostics = load_cell(cell), collector()
+    surroundings, diagnostics = _assuming(load_cell(cell), assume_data), collector()
     read = read_paths(paths, dialect, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
     if new_cell is not None:
@@ -146,6 +152,15 @@ def _can_be_written(trace: Path | None, plot: Path | None) -> None:
     if trace is not None and plot is not None and trace.resolve() == plot.resolve():
         raise UsageError(f"--trace and --plot both name {trace}: give each a file")
     refuse_others([path for path in (trace, plot) if path is not None])
+
+
+def _assuming(cell: Cell | None, asked: bool) -> Cell | None:
+    """The surroundings, in which data without a value gets one if that is asked for here or in the cell file."""
+    from rpl.cell import Cell as NoCell
+
+    if not asked:
+        return cell
+    return replace(cell if cell is not None else NoCell(), assume_data=True)
 
 
 def _init_cell(path: Path, read: ReadProgram, diagnostics: Diagnostics) -> int:
@@ -239,11 +254,22 @@ def _warnings(result: RunResult) -> Iterator[Diagnostic]:
             yield Diagnostic(kind, event.origin, (said,), Severity.WARNING)
 
 
+def assumptions(assumed: Sequence[Assumed]) -> Iterator[str]:
+    """What a result rests on, before the result itself."""
+    from rpl.inventory.contents import place_of
+
+    if assumed:
+        yield f"rests on {counted(len(assumed), 'assumed value')} of data to which nothing in the project gives one:"
+        yield from (f"  {place_of(one.origin)}: {one.name} = {one.shown}" for one in assumed)
+
+
 def show(result: RunResult) -> None:
     """The run for people."""
     document = result.as_json()
     messages, outputs, fault = document["messages"], document["outputs"], document["fault"]
     assert isinstance(messages, list) and isinstance(outputs, list)
+    for said in assumptions(result.assumed or ()):
+        say(printable(said))
     for t, name, value in outputs:
         said = str(value).upper() if isinstance(value, bool) else value
         say(printable(f"{t:9.3f} s  {name} = {said}"))

@@ -73,15 +73,18 @@ def hidden(place: int) -> ir.Name:
 
 
 CompileProcedure = Callable[["Compiler", str, tuple[ir.Expression | None, ...]], Read]
+CompileAssuming = Callable[["Compiler", ir.Expression, Read, bool], Read | None]
 
 
 class Compiler:
     """Compiles expressions of one routine (or of a module's declarations). `procedure`: how the call of a neutral
-    procedure is compiled, which writes to places."""
+    procedure is compiled, which writes to places; `assuming`: how a place is read that gets a value where it has none
+    (see the module of that name)."""
 
-    def __init__(self, linked: Symbols, scope: Scope, procedure: CompileProcedure) -> None:
+    def __init__(self, linked: Symbols, scope: Scope, procedure: CompileProcedure, assuming: CompileAssuming) -> None:
         self.linked = linked
         self.procedure = procedure
+        self.assuming = assuming
         self.scope = scope
         self.types: Types = linked.types(scope)
         self.unset = scope.rules.undefined
@@ -128,7 +131,12 @@ class Compiler:
         raw = _raw(place)
         if not checked or not (self.unset or place.is_reference) or expression.id.startswith(HIDDEN):
             return raw
-        return _checked(raw, place, expression.id)
+        return self.assumed(expression, raw) or _checked(raw, place, expression.id)
+
+    def assumed(self, expression: ir.Expression, raw: Read, goal: bool = False) -> Read | None:
+        """What reads the place in a run that goes on where data has no value; None in any other, and where there is no
+        value to assume. goal: a move goes there."""
+        return self.assuming(self, expression, raw, goal) if self.linked.assumes else None
 
     # ---- entry
 
@@ -204,6 +212,9 @@ class Compiler:
         raw = self.raw_part(expression)
         what = _words(expression)
         if self.unset:
+            assumed = self.assumed(expression, raw)
+            if assumed is not None:
+                return assumed
 
             def checked(f: Values) -> Value:
                 value = raw(f)

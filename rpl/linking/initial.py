@@ -21,6 +21,7 @@ from rpl.runtime.values import (
     VectorValue,
     pose_from,
 )
+from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.linking.symbols import Symbols
@@ -42,6 +43,9 @@ class _Loader:
         self.inputs: dict[SignalRef, float] = {}
         self.name = "start"
         self.robot = None
+
+    def where(self) -> Origin:
+        return NOWHERE
 
 
 def initialise(linked: Symbols, values: Values, machine: Machine) -> None:

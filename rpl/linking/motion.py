@@ -45,8 +45,11 @@ class MotionStatements:
     def target(self, expression: ir.Expression) -> Read:
         """A motion target: components without a value are no fault here, they stay as they are, if the language's rules
         do not demand whole positions."""
-        read = self.linker.compiler.raw(expression)
-        return _whole(read, expression) if self.linker.compiler.scope.rules.whole_targets else read
+        compiler = self.linker.compiler
+        read = compiler.raw(expression)
+        if compiler.unset:
+            read = compiler.assumed(expression, read, goal=True) or read
+        return _whole(read, expression) if compiler.scope.rules.whole_targets else read
 
     def statement(self, statement: ir.Statement) -> None:
         emit = self.linker.assembler.emit

@@ -5,7 +5,7 @@ What is made here never changes while a program runs and is shared by all snapsh
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -19,8 +19,10 @@ from rpl.linking.routine import link_initial, link_routine
 from rpl.linking.symbols import GlobalSlot
 from rpl.linking.types import Types
 from rpl.passes.analog import AnalogRanges, analog_ranges
+from rpl.passes.roles import Roles, roles_of
 from rpl.passes.scope import Fold, ProgramScope, Scope, rules_of
 from rpl.passes.typing import normalise
+from rpl.passes.undeclared import declared_by_use
 from rpl.runtime.code import Code, Values
 from rpl.runtime.signals import Key, bit_kind, bits_named, group_bits, is_bit_group, key_of
 from rpl.runtime.values import SignalRef
@@ -35,10 +37,13 @@ _SPELLED_LATER = 20
 
 
 class LinkedProgram:
-    """Symbols of a program and the code of its routines."""
+    """Symbols of a program and the code of its routines. `assumes`: data without a value gets one where it is read (see
+    assuming), by its `roles`."""
 
-    def __init__(self, program: ir.Program) -> None:
+    def __init__(self, program: ir.Program, assumes: bool = False) -> None:
         self.program = program
+        self.assumes = assumes
+        self.roles = roles_of(program) if assumes else Roles()
         self.scopes = ProgramScope(program)
         self.slots: list[GlobalSlot] = []
         self._slot_of: dict[object, int] = {}
@@ -266,11 +271,27 @@ class LinkedProgram:
         return Types(scope)
 
 
-def link(program: ir.Program) -> LinkedProgram:
-    """Prepare a normalised program for running."""
+def link(program: ir.Program, assume_data: bool = False, given: Iterable[str] = ()) -> LinkedProgram:
+    """Prepare a normalised program for running. assume_data: what nothing declares is declared by its use, and data
+    without a value gets one when it is first read, which the run reports. given: paths of data to which a cell file
+    gives values; those that nothing declares are declared too."""
     if not program.modules:
         raise UsageError("there is nothing to run: no module was read")
-    return LinkedProgram(program)
+    roots = None if assume_data else {_name_of(path).lower() for path in given} - _declared(program)
+    if roots is None or roots:
+        program = declared_by_use(program, roots)
+    return LinkedProgram(program, assume_data)
+
+
+def _declared(program: ir.Program) -> set[str]:
+    """Names of all data of modules, folded."""
+    declarations = (one for module in program.modules for one in module.declarations)
+    return {one.name.lower() for one in declarations if isinstance(one, ir.Variable | ir.VariableRows)}
+
+
+def _name_of(path: str) -> str:
+    """The variable at the beginning of a path of elements and components."""
+    return path.partition("[")[0].partition(".")[0]
 
 
 @cache

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from rpl import ir
 from rpl.errors import InternalError
 from rpl.linking.assembler import Assembler, Label
+from rpl.linking.assuming import assuming
 from rpl.linking.calls import FIRST, Calls, leaving
 from rpl.linking.expressions import Compiler, Place
 from rpl.linking.flatten import Flattener
@@ -68,7 +69,7 @@ class RoutineLinker:
 def link_routine(linked: Symbols, module: ir.Module, routine: ir.Routine) -> Code:
     """The code of a routine."""
     scope = linked.scopes.routine(module, routine)
-    compiler = Compiler(linked, scope, procedure)
+    compiler = Compiler(linked, scope, procedure, assuming)
     linker = RoutineLinker(linked, compiler, module)
     code = linker.code = Code(routine.name, scope.rules, routine.kind)
     code.predefined = not any(module is own for own in linked.program.modules)
@@ -217,7 +218,7 @@ class _Tracking(Compiler):
 
         if not isinstance(scope, Scope):
             raise InternalError("a scope is needed")
-        super().__init__(linked, scope, procedure)
+        super().__init__(linked, scope, procedure, assuming)
         self.used: set[int] = set()
 
     def value(self, expression: ir.Expression) -> Read:

@@ -94,6 +94,22 @@ class Types:
                 return None
         return self.composed(type, {} if self.unset else self._zeros(type))
 
+    def zero(self, type: ir.Type | None) -> Value:
+        """Zero, FALSE, the empty text, the first member, or a structure of such; None for a type that has no such."""
+        type = self.scope.resolve(type) if type is not None else None
+        match type:
+            case ir.IntType() | ir.RealType():
+                return 0
+            case ir.BoolType():
+                return False
+            case ir.CharType() | ir.StringType():
+                return ""
+            case ir.NamedType(name=name):
+                found = self.scope.type(name)
+                members = found.members if isinstance(found, ir.EnumDeclaration) else ()
+                return Member(members[0].lower()) if members else None
+        return self.composed(type, self._zeros(type)) if type is not None and type.__class__ in ir.COMPONENTS else None
+
     def _named(self, name: str, number: Dimensions) -> Value:
         match self.scope.type(name):
             case ir.RecordDeclaration(fields=fields):
@@ -153,6 +169,8 @@ class Types:
                 rest = dimensions[1:]
                 inner = ir.ArrayType(element, rest, type.base) if rest else element
                 return Array([self.fitted(inner, item) for item in items], value.base)
+            case ir.NamedType(name=name), str() if isinstance(self.scope.type(name), ir.EnumDeclaration):
+                return Member(value.lower().removeprefix("#"))
             case ir.NamedType(name=name), Record(parts=parts):
                 record = self.scope.type(name)
                 if isinstance(record, ir.RecordDeclaration):

@@ -7,7 +7,7 @@ that nothing ends but what they wait for. Routines that are not there take no ti
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -73,7 +73,8 @@ class OpenWait:
 @dataclass(frozen=True, slots=True)
 class Driven:
     """One program: what it reached of what it can come to, in how many cells, what `ended` the exploration early
-    (see Exploration), and how its runs ended early. `refused`: why it cannot be run at all."""
+    (see Exploration), and how its runs ended early. `refused`: why it cannot be run at all. `assumed`: data without a
+    value that got one, with that value in words and the statement that read it first."""
 
     name: str
     reach: Reach
@@ -81,6 +82,7 @@ class Driven:
     ended: str = ""
     endings: tuple[Ending, ...] = ()
     refused: str = ""
+    assumed: tuple[tuple[str, str, Place], ...] = ()
 
     def of(self, kind: str) -> tuple[Ending, ...]:
         """The endings of a kind."""
@@ -97,6 +99,7 @@ class Driven:
             "faults": [one.as_json() for one in self.of("fault")],
             "missing": [one.as_json() for one in self.of("missing")],
             "stands": [one.as_json() for one in self.of("waits")],
+            "assumed": [{"name": name, "value": value, **place.as_json()} for name, value, place in self.assumed],
         }
 
 
@@ -118,7 +121,7 @@ class Drive:
     @property
     def is_clean(self) -> bool:
         """Nothing to look at: all was reached, nothing is missing, and every wait ends."""
-        ends = any(one.endings or one.refused for one in self.programs)
+        ends = any(one.endings or one.refused or one.assumed for one in self.programs)
         return not (ends or self.reach.unreached or self.waits or self.stubs)
 
     def as_json(self) -> dict[str, object]:
@@ -132,7 +135,6 @@ class Drive:
 
 
 def drive(
-    program: ir.Program,
     linked: LinkedProgram,
     starts: Sequence[Start],
     stubs: Collection[str],
@@ -145,6 +147,7 @@ def drive(
     """Explore each start for itself. stubs: names of routines that are not there; what the cell says of one stands.
     cells: how many cells are tried for each; the result does not hang on the machine. tell: is told of each program
     that is done."""
+    program = linked.program
     unsaid = {name.lower(): RoutineMeaning() for name in stubs if name.lower() not in cell.routines}
     around = replace(cell, routines={**cell.routines, **unsaid})
     named, runs, programs = named_inputs(program), list[Reached](), list[Driven]()
@@ -185,7 +188,16 @@ def _driven(side: _Noting, start: Start, cell: Cell, cells: int, remarks: dict[K
         found.tried + 1,
         found.ended,
         tuple(_endings(side.noted, _MISSING if side.robot else _MISSING | {"motion"})),
+        assumed=_assumed(result for _, result in side.noted),
     )
+
+
+def _assumed(results: Iterable[RunResult]) -> tuple[tuple[str, str, Place], ...]:
+    """What the runs assumed, each datum once."""
+    found: dict[str, tuple[str, str, Place]] = {}
+    for one in (one for result in results for one in result.assumed or ()):
+        found.setdefault(one.name.lower(), (one.name, one.shown, place_of(one.origin)))
+    return tuple(found.values())
 
 
 def _endings(noted: Sequence[tuple[Cell, RunResult]], missing: Collection[str]) -> list[Ending]:

@@ -30,6 +30,10 @@ class Linked(Protocol):
         """The dialects of the program's modules, each once."""
 
     @property
+    def assumes(self) -> bool:
+        """Does data without a value get one where it is read?"""
+
+    @property
     def signals_named(self) -> int:
         """How many names of signals are known by now: those of a routine are when it is linked."""
 

@@ -15,6 +15,7 @@ from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
 from rpl.runtime import meetings, tasks
+from rpl.runtime.assumed import Assumed
 from rpl.runtime.awaited import awaited, words
 from rpl.runtime.code import Code, Read, Values
 from rpl.runtime.faults import ProgramError
@@ -80,6 +81,7 @@ class Machine:
         self.trace: list[Event] = []
         self.outputs: list[tuple[float, str, Value]] = []
         self.messages: list[str] = []
+        self.assumed: dict[str, Assumed] = {}  # data without a value that got one, folded
         self.moves = 0
         self.status = ""
         self.end_fault: Fault | None = None
@@ -578,6 +580,7 @@ class Machine:
             fault=self.end_fault,
             trace=tuple(self.trace),
             joints=joints,
+            assumed=tuple(self.assumed.values()) if self.linked.assumes else None,
             waited=tuple(self.waited),
             awaited=awaited(self),
             reached=Reached(self.linked, {code: bytes(marks) for code, marks in self.marks.items()}),

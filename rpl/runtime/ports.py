@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rpl.emulator.rotations import FloatArray
     from rpl.ir.rules import Rules
     from rpl.motionmodel import MotionModel
+    from rpl.runtime.assumed import Assumed
     from rpl.runtime.code import Code, Frame, Read, Values
     from rpl.runtime.faults import ProgramError
     from rpl.runtime.interrupts import Interrupt, Interrupts
@@ -37,6 +38,7 @@ class Machine(Protocol):
     """The clock, the signals, the tasks and the trace of a run."""
 
     arrivals: list[Arrival]
+    assumed: dict[str, Assumed]
     critical: int | None
     answered: int
     moves: int
@@ -171,6 +173,7 @@ class Robot(Protocol):
 
     task_index: int
     joints: FloatArray | None
+    at_start: FloatArray | None
     external: External
     planned_joints: FloatArray | None
     planned_external: External

@@ -12,6 +12,7 @@ from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
     from rpl.emulator.planner import PlannedMove
+    from rpl.runtime.assumed import Assumed
     from rpl.runtime.moves.orders import Payload, Programmed
     from rpl.runtime.reached import Reached
     from rpl.runtime.waits import Awaited, Waited
@@ -101,7 +102,7 @@ class RunResult:
     """How a run ended. status: finished, stopped, fault, deadlock, limit, interrupted. `outputs` are changes in order:
     time, name of the physical signal, value. `joints` at the end (None without a robot). `awaited`: the tasks that had
     not ended. `waited`: the waits for conditions that ended, met or timed out. `reached`: which statements it came to
-    (see rpl.proof.reach)."""
+    (see rpl.proof.reach). `assumed`: data that had no value and got one (None: the run was not asked to)."""
 
     status: str
     time_s: float
@@ -115,6 +116,7 @@ class RunResult:
     awaited: tuple[Awaited, ...] = field(default=(), compare=False)
     waited: tuple[Waited, ...] = ()
     reached: Reached | None = field(default=None, compare=False, repr=False)
+    assumed: tuple[Assumed, ...] | None = None
 
     def _parts(self) -> list[str]:
         return [
@@ -122,6 +124,7 @@ class RunResult:
             counted(self.moves, "move"),
             counted(len(self.outputs), "output"),
             counted(len(self.messages), "message") if self.messages else "",
+            f"with {counted(len(self.assumed), 'assumed value')}" if self.assumed else "",
             self._why(),
         ]
 
@@ -149,6 +152,7 @@ class RunResult:
             "messages": list(self.messages),
             "outputs": [[round(t, 6), name, value] for t, name, value in self.outputs],
             "fault": self.fault.as_json() if self.fault else None,
+            **({} if self.assumed is None else {"assumed": [one.as_json() for one in self.assumed]}),
         }
 
     def trace_lines(self) -> Iterator[dict[str, Value]]:

@@ -90,7 +90,7 @@ def test_a_cell_file_with_what_the_programs_ask_for(tmp_path: Path, capsys: pyte
     assert '# read by main\n# [[input]]\n# time = 0.0\n# signal = "$IN[7]"\n# value = true\n' in text
     assert '# called at main.src:4, as in: LOST(1)\n[[routine]]\nname = "LOST"\nseconds = 0.0\n' in text
     assert "# Outputs, which a [[reaction]] may answer by an input:\n#   $OUT[1]: set by main\n" in text
-    assert '[variables]\n# "far" = 0  # asked for at main.src:5\n' in text
+    assert '[variables]\n"far" = 0  # assumed: asked for at main.src:5\n' in text
     capsys.readouterr()
     assert run(["run", str(tmp_path), "--cell", str(cell), "--json"]) == 1  # it waits for the input, as it is
     told = capsys.readouterr()
@@ -101,10 +101,70 @@ def test_a_cell_file_with_what_the_programs_ask_for(tmp_path: Path, capsys: pyte
         .replace("# signal", "signal")
         .replace("# value = t", "value = t")
     )
-    cell.write_text(edited.replace('# "far" = 0', '"far" = 0'))
+    cell.write_text(edited)
+    assert run(["run", str(tmp_path), "--cell", str(cell), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["outputs"] == [[0.0, "$OUT[1]", True]]
+    cell.write_text(edited.replace('"far" = 0', '# "far" = 0').replace("assume_data = true", ""))
     assert run(["run", str(tmp_path), "--cell", str(cell), "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["fault"] is not None  # data that nobody declares has no value
     assert run(["run", str(tmp_path), "--init-cell", str(cell)]) == 2  # edited: it stays
+
+
+_LACKING = """DEF main()
+DECL INT n
+n=count+FUN(2)
+gripper=held
+IF mode==#FAST THEN
+n=sheet[far].rows
+ENDIF
+PTP home
+$OUT[1]=ready
+END
+"""
+
+
+def test_a_cell_file_lets_the_program_go_on_unedited(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "main.src").write_text(_LACKING)
+    (tmp_path / "main.dat").write_text("DEFDAT main\nDECL INT count\nDECL E6POS home\nENDDAT\n")
+    cell = tmp_path / "cell.toml"
+    assert run(["run", str(tmp_path), "--init-cell", str(cell)]) == 0
+    text = cell.read_text("utf-8")
+    assert "assume_data = true\n" in text and "value = 0                  # assumed: it is a function\n" in text
+    values = dict(line.split("  # ")[0].split(" = ", 1) for line in text.splitlines() if line.startswith('"'))
+    assert values == {'"count"': "0", '"far"': "1", '"held"': "0", '"mode"': '"#FAST"', '"ready"': "false"}
+    assert '# "home" = { x = 0, y = 0, z = 0, a = 0, b = 0, c = 0 }  # a place, begins where the arm stands: ' in text
+    capsys.readouterr()
+    assert run(["run", str(tmp_path), "--cell", str(cell), "--robot", "kuka_kr6r900sixx", "--json"]) == 0
+    told = capsys.readouterr()
+    assert [one["name"] for one in json.loads(told.out)["assumed"]] == [
+        "sheet[1].rows",
+        "home",
+    ]  # the file has the others
+    assert "cell.toml" not in told.err
+
+
+def test_assumed_data_is_told_before_the_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "main.src").write_text(_LACKING.replace("+FUN(2)", ""))
+    assert run(["run", str(tmp_path), "--json"]) == 1
+    assert "assumed" not in json.loads(capsys.readouterr().out)
+    assert run(["run", str(tmp_path), "--assume-data"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "rests on 7 assumed values of data to which nothing in the project gives one:"
+    assert lines[1] == "  main.src:3: count = 0" and lines[5] == "  main.src:6: sheet[1].rows = 0"
+    assert run(["run", str(tmp_path), "--assume-data", "--json"]) == 0
+    first = json.loads(capsys.readouterr().out)["assumed"][0]
+    assert (first["name"], first["value"], first["line"], first["task"]) == ("count", "0", 3, "main")
+
+
+def test_exploring_names_what_it_assumed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "main.src").write_text("DEF main()\nIF far>2 THEN\n$OUT[1]=$IN[1]\nENDIF\nEND\n")
+    assert run(["run", str(tmp_path), "--explore", "--assume-data", "--json"]) == 3
+    (driven,) = json.loads(capsys.readouterr().out)["entries"]
+    assert [(one["name"], one["value"], one["line"]) for one in driven["assumed"]] == [("far", "0", 2)]
+    assert run(["run", str(tmp_path), "--explore", "--assume-data"]) == 3
+    told = capsys.readouterr().out.splitlines()
+    assert told[0] == "rests on 1 assumed value of data to which nothing in the project gives one"
+    assert "  assumed: main.src:2: far = 0" in told
 
 
 def test_a_stub_that_is_never_asked_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -33,13 +33,16 @@ def test_projects_of_a_folder(tmp_path: Path) -> None:
         ("LOOP\n$OUT[1]=TRUE\nWAIT SEC 1\n$OUT[1]=FALSE\nWAIT SEC 1\nENDLOOP", "loops", ""),
         ("n=m", "unknown data", "m has no value yet"),
         ("n=lost", "unknown data", "lost"),
+        ("WAIT FOR $OUT[3]", "waits for what is outside", "$OUT[3]"),
+        ("$OUT[3]=FALSE\nWAIT FOR $OUT[3]", "waits for what is outside", "$OUT[3]"),
+        ("WAIT FOR $OUT[3]\n$OUT[3]=TRUE", "waits for something else", "main waits for a condition (WAIT FOR $OUT[3])"),
     ],
 )
 def test_classes(tmp_path: Path, body: str, kind: str, what: str) -> None:
     path = tmp_path / "main.src"
     path.write_text(f"DEF main()\nINT n,m\n{body}\nEND\n")
     (outcome,) = run_backups.measure((tmp_path.name, [path], 60.0, 60.0))
-    assert (outcome.kind, outcome.what) == (kind, what)
+    assert (outcome.kind, outcome.what.partition(" at /")[0]) == (kind, what)
     assert outcome.language == "krl" and outcome.entry == "main"
 
 
@@ -52,3 +55,33 @@ def test_versions_of_one_program_are_programs_of_their_own(tmp_path: Path) -> No
     found = run_backups.measure((name, paths, 60.0, 60.0))
     assert [(one.entry, one.kind) for one in found] == [("main", "end"), ("main", "end")]
     assert run_backups.share(found) == 100.0
+
+
+@pytest.mark.parametrize(
+    ("body", "kind", "what"),
+    [
+        ("n=lost", "end", "finished"),
+        ("n=lost\nWAIT FOR $IN[2]", "waits for input", "$IN[2]"),
+        ("WAIT FOR lost AND seen", "waits for what is outside", "lost, seen"),
+        ("WAIT FOR lost\nlost=TRUE", "waits for something else", "main waits for a condition (WAIT FOR lost)"),
+        ("n=m", "unknown data", "m has no value yet"),  # of the routine: a fault of the program
+        ("n=lost\naway(n)", "unknown routine", "away"),
+    ],
+)
+def test_classes_with_assumed_data(tmp_path: Path, body: str, kind: str, what: str) -> None:
+    path = tmp_path / "main.src"
+    path.write_text(f"DEF main()\nINT n,m\n{body}\nEND\n")
+    (outcome,) = run_backups.measure((tmp_path.name, [path], 60.0, 60.0))
+    assert outcome.kind == "unknown data"
+    assert (outcome.assumed_kind, outcome.assumed_what.partition(" at /")[0]) == (kind, what)
+    assert outcome.assumed == ("lost" in body) + ("seen" in body)
+    text = "\n".join(run_backups.table([outcome]))
+    assert f"{kind} with assumed data" in text and "share as they are, %" in text
+
+
+def test_copies_are_counted_once(tmp_path: Path) -> None:
+    for name in ("a", "b", "c"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "main.src").write_text(f"DEF main()\n$OUT[{1 + (name == 'c')}]=TRUE\nEND\n")
+    found = [one for task in run_backups.projects(tmp_path) for one in run_backups.measure((*task, 60.0, 60.0))]
+    assert len(found) == 3 and len(run_backups.without_copies(found)) == 2

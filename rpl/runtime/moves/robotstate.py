@@ -28,6 +28,7 @@ class RobotState:
         self.task_index = task_index
         self.model = model
         self.joints: FloatArray | None = _start(machine, model)
+        self.at_start = self.joints
         self.external: External = machine.cell.external or (None,) * 6
         self.piece: Piece | None = None
         self.resting = False  # it keeps still for a time that the program has ordered (see resting)
