@@ -25,6 +25,8 @@ from rpl.runtime.values import Member, Value
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
+    from rpl.cell.layout import Layout
+    from rpl.cell.world import World
     from rpl.emulator.model import RobotModel
     from rpl.linking.program import LinkedProgram
     from rpl.motionmodel import MotionModel
@@ -78,7 +80,8 @@ def run_program(
 
 class Simulation(Machine):
     """A program on its machine, under control. `breakpoints`: (file, line), the file without its folder. `linked`: the
-    program as it was linked before, for who runs it again and again."""
+    program as it was linked before, for who runs it again and again. `place`: a world that other robots share, and
+    which robot of it this one is; without it a cell with bodies makes its own."""
 
     def __init__(
         self,
@@ -93,6 +96,7 @@ class Simulation(Machine):
         controller: str | MotionModel | None = None,
         further: Sequence[str | RobotModel] = (),
         linked: LinkedProgram | None = None,
+        place: tuple[World, str] | None = None,
     ) -> None:
         from rpl.cell import Cell as NoCell
         from rpl.controllerfiles import controller_named
@@ -117,6 +121,8 @@ class Simulation(Machine):
         for declared, routine in _tasks(program, linked, entry):
             self._add(declared, routine)
         self._robots_are_driven()
+        if surroundings.layout:
+            self._stand_among(surroundings.layout, place)
         for task in self.tasks:
             self.ready(task)
 
@@ -142,6 +148,20 @@ class Simulation(Machine):
         robots = sum(other.robot is not None for other in self.tasks)
         if declared.kind == MOTION_TASK and robots <= len(self.further):
             task.robot = self.new_robot(task)
+
+    def _stand_among(self, layout: Layout, place: tuple[World, str] | None) -> None:
+        """The bodies of the cell are around the robot."""
+        from rpl.cell.world import World
+        from rpl.runtime.bodies import Bodies
+
+        if place is None:
+            if len(layout.robots) > 1:
+                raise UsageError(f"{layout.path}: the cell has several robots: `rpl run --cell` runs them together")
+            place = World(layout, self.cell.seed), layout.robot("").name
+        if all(task.robot is None or task.robot.model is None for task in self.tasks):
+            raise UsageError(f"{layout.path}: bodies need a robot whose moves take time: name one (--robot)")
+        world, name = place
+        self.bodies = Bodies(self, world, name, layout.robot(name).base)
 
     def _robots_are_driven(self) -> None:
         """Every robot that is named has a motion task."""
@@ -206,6 +226,16 @@ class Simulation(Machine):
     def _starts_statement(self, task: Task) -> bool:
         code, counter = task.frame.code, task.frame.counter
         return code.statements[counter][0] == counter
+
+    @property
+    def waits_outside(self) -> bool:
+        """Can only another robot's machine let it go on?"""
+        return not self.status and not self.agenda and not self._is_finished()
+
+    @property
+    def next_s(self) -> float:
+        """When it has something to do."""
+        return self.agenda[0][0] if self.agenda else self.now
 
     # ---- inspection
 

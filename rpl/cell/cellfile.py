@@ -13,6 +13,7 @@ statements stand for. Every error names the file and the key.
     [analog.tp]   "AO[1]" = { numbers = [0, 2000], volts = [0, 10] }     or milliamperes = [4, 20]
     [[vendor]]    match = "regex"  effect = "none|message|time"  [seconds = 1.0]  [value = 5]  [set = [["di3", true]]]
     [[routine]]   name = "GRIP"  [seconds = 0.5]  [message = "text"]  [value = 5]  [set = [["di3", true]]]
+    [[robot]] [[gripper]] [[fixture]] [[bin]] [[part]] ...   bodies: see rpl.cell.layoutfile
 """
 
 from __future__ import annotations
@@ -21,16 +22,16 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from rpl import ir, registry
+from rpl.cell.layout import Layout
+from rpl.cell.layoutfile import TABLES, LayoutReader
+from rpl.cell.rows import RowReader, Value
 from rpl.emulator.mechanismfile import Mechanism, read_mechanisms
 from rpl.errors import UsageError
 from rpl.ir.analog import MILLIAMPERES, VOLTS, AnalogRange, AnalogSetting
 from rpl.source import read_bytes
-from rpl.tomlfile import FARTHEST, LARGEST, SMALLEST, Lines, TomlError, key_lines, line_of, no_numbers, read_toml
-
-Value = Any  # what TOML can say: numbers, BOOLs, texts, lists, tables
+from rpl.tomlfile import FARTHEST, LARGEST, SMALLEST, TomlError, key_lines, no_numbers, read_toml
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,8 @@ class Input:
 @dataclass(frozen=True, slots=True)
 class Reaction:
     """When `when` becomes `value`, `signal` becomes `result` after some seconds. `unanswered`: at which of these times,
-    counted from 1, it does not: a gripper that misses, a part that sticks."""
+    counted from 1, it does not: a gripper that misses, a part that sticks. `deed`: what happens to bodies instead (see
+    rpl.cell.world), of rows that follow from the layout."""
 
     when: str
     value: Value
@@ -53,6 +55,7 @@ class Reaction:
     signal: str
     result: Value
     unanswered: tuple[int, ...] = ()
+    deed: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +107,7 @@ class Cell:
     analog: tuple[AnalogSetting, ...] = ()
     routines: Mapping[str, RoutineMeaning] = field(default_factory=dict)  # by folded name
     assume_data: bool = False
+    layout: Layout = field(default_factory=Layout)
 
 
 def read_cell(path: str | Path) -> Cell:
@@ -147,10 +151,10 @@ _TOP = frozenset(
         "routine",
         "mechanism",
         "analog",
+        *TABLES,
     )
 )
 _MOST_EXTERNAL = 6
-LONGEST_S = 1e9  # no time of a cell is longer
 # System variables that say how fast something is; of blends they say where one begins.
 _RATE = re.compile(r"^(?!blend_).*(speed|acceleration|deceleration)")
 
@@ -159,15 +163,7 @@ def _is_place(value: Value) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= FARTHEST
 
 
-class _Reader:
-    def __init__(self, path: str, lines: Lines) -> None:
-        self.path = path
-        self.lines = lines
-
-    def wrong(self, key: str, what: str) -> UsageError:
-        line = line_of(self.lines, key)
-        return UsageError(f"{self.path}{f':{line}' if line else ''}: {key}: {what}")
-
+class _Reader(RowReader):
     def cell(self, table: dict[str, Value]) -> Cell:
         for key in table:
             if key not in _TOP:
@@ -201,6 +197,7 @@ class _Reader:
             tuple(self.analog(table.get("analog", {}))),
             dict(self.routine(key, row) for key, row in self.rows(table, "routine")),
             assume,
+            LayoutReader(self.path, self.lines).layout(table),
         )
 
     def system(self, name: str, value: Value) -> None:
@@ -262,46 +259,6 @@ class _Reader:
         if not isinstance(given, list) or not all(_is_place(each) for each in given):
             raise self.wrong("joints", f"must be a list of joint values, none beyond {FARTHEST:,.0f}")
         return tuple(float(each) for each in given)
-
-    def rows(self, table: dict[str, Value], name: str) -> Iterator[tuple[str, dict[str, Value]]]:
-        rows = table.get(name, [])
-        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-            raise self.wrong(name, f"must be written as [[{name}]] tables")
-        for number, row in enumerate(rows, 1):
-            yield f"{name}[{number}]", row
-
-    def known(self, key: str, row: dict[str, Value], needed: tuple[str, ...], more: tuple[str, ...] = ()) -> None:
-        for name in needed:
-            if name not in row:
-                raise self.wrong(f"{key}.{name}", "is missing")
-        for name in row:
-            if name not in needed and name not in more:
-                raise self.wrong(f"{key}.{name}", f"unknown; there are {', '.join((*needed, *more))}")
-
-    def seconds(self, key: str, row: dict[str, Value], name: str, default: float = 0.0) -> float:
-        value = row.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value <= LONGEST_S:
-            raise self.wrong(f"{key}.{name}", f"must be a time in s, not {value!r}")
-        return float(value)
-
-    def text(self, key: str, row: dict[str, Value], name: str) -> str:
-        value = row.get(name, "")
-        if not isinstance(value, str):
-            raise self.wrong(f"{key}.{name}", f"must be a text, not {value!r}")
-        return value
-
-    def times(self, key: str, row: dict[str, Value], name: str) -> tuple[int, ...]:
-        """The first, the third...: whole numbers from 1."""
-        given = row.get(name, [])
-        if not isinstance(given, list) or not all(type(one) is int and one >= 1 for one in given):
-            raise self.wrong(f"{key}.{name}", f"must be a list of whole numbers from 1, not {given!r}")
-        return tuple(given)
-
-    def signal(self, key: str, row: dict[str, Value], name: str) -> Value:
-        value = row[name]
-        if not isinstance(value, bool | int | float):
-            raise self.wrong(f"{key}.{name}", f"must be true, false or a number, not {value!r}")
-        return value
 
     def pattern(self, key: str, row: dict[str, Value], name: str) -> re.Pattern[str]:
         try:

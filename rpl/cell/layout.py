@@ -67,6 +67,8 @@ class Gripper:
     close: Switch = Switch("")
     open: Switch | None = None  # None: the signal of `close` going back
     gripped: str = ""  # input that is TRUE while a part is held
+    opened: str = ""  # input that is TRUE while it is open
+    closed: str = ""  # input that is TRUE while it is closed on nothing
     time_s: float = 0.0
     opening: tuple[float, float] = (0.0, 1000.0)
     reach_mm: float = 20.0  # how far from the grip point a part may be
@@ -77,25 +79,29 @@ class Gripper:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fixture:
-    """What stands still: its upward faces carry parts. `keeps`: a bin, from whose inside nothing falls out."""
+    """What stands still: its upward faces carry parts. `inside`: of a bin, from which nothing falls out, its lengths
+    (mm) over the pose `floor` of the middle of its floor."""
 
     name: str
     bodies: tuple[Body, ...]
     restitution: float = 0.3
-    keeps: bool = False
+    inside: tuple[float, float, float] | None = None
+    floor: FloatArray = field(default_factory=_nowhere)
     key: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
     """What can be moved. `at`: where its frame is at the start; `restitution` of its material, `mass_kg` None: not
-    weighed."""
+    weighed. `again_s`: where a feeder brings it, how long after its place has become free."""
 
     name: str
     shape: Shape
     at: FloatArray = field(default_factory=_nowhere)
     restitution: float = 0.3
     mass_kg: float | None = None
+    again_s: float | None = None
+    kind: str = ""  # the name that it shares with its copies
     key: str = ""
 
 
@@ -112,6 +118,17 @@ class Sensor:
 
 
 @dataclass(frozen=True, slots=True)
+class Removal:
+    """Somebody, or a conveyor, takes away what stands on a fixture some time after a signal of a robot switched."""
+
+    when: Switch
+    fixture: str
+    after_s: float = 0.0
+    robot: str = ONLY_ROBOT
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Wire:
     """An output of one robot that is an input of another one."""
 
@@ -124,7 +141,9 @@ class Wire:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Layout:
-    """Everything that a cell file says of bodies. `allowed`: pairs of names that may touch each other."""
+    """Everything that a cell file says of bodies. `allowed`: pairs of names that may touch each other. `scatter`: how
+    far from where it is let go a part may come to rest, in mm per mm of its fall. `tangle`: the chance that a part
+    stays on the one that it falls on; else it slides into free space."""
 
     robots: tuple[RobotPlace, ...] = ()
     grippers: tuple[Gripper, ...] = ()
@@ -132,8 +151,9 @@ class Layout:
     parts: tuple[Part, ...] = ()
     sensors: tuple[Sensor, ...] = ()
     wires: tuple[Wire, ...] = ()
+    removals: tuple[Removal, ...] = ()
     allowed: tuple[tuple[str, str], ...] = ()
-    scatter: float = 0.0  # mm per mm of drop, of what bounces
+    scatter: float = 0.0
     tangle: float = 0.0
     near_mm: float = 20.0  # distances below this are near misses
     path: str = ""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from rpl.cli.cells import BodiesAsked, CellAsked, bodies_options, run_among_bodies
 from rpl.cli.exploring import explore_backup, exploring_options, limit_of_a_run
 from rpl.cli.files import force_option, refuse_others, write_files
 from rpl.cli.limits import limit_options, limits_of
@@ -18,7 +19,6 @@ from rpl.cli.output import (
     collector,
     from_option,
     json_option,
-    paths_argument,
     plain,
     print_diagnostics,
     print_json,
@@ -30,7 +30,7 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.cli.reports import report_options, reports_of, show_reports
+from rpl.cli.reports import Reports, report_options, reports_of, show_reports
 from rpl.diagnostics import Code, Diagnostic, Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.facts.motion.pulsecounts import report_assumed, report_stations
@@ -48,10 +48,12 @@ if TYPE_CHECKING:
     from rpl.report.times import RunTimes
     from rpl.runtime.assumed import Assumed
     from rpl.simulation import RunResult
+    from rpl.workcell.loading import Loaded
+    from rpl.workcell.record import CellRun
 
 
 @click.command("run")
-@paths_argument
+@click.argument("paths", nargs=-1, metavar="PATH...")
 @from_option
 @click.option(
     "--robot", "robots", multiple=True, metavar="R", help="Arm: a name or a .toml file; again for a second motion task."
@@ -69,6 +71,7 @@ if TYPE_CHECKING:
 )
 @click.option("--entry", metavar="NAME", help="Routine to start with; else main, or the only one nobody calls.")
 @exploring_options
+@bodies_options
 @click.option("--trace", type=click.Path(dir_okay=False, path_type=Path), metavar="F.jsonl", help="Write every event.")
 @report_options
 @click.option("--despite-errors", is_flag=True, help="Run what was read in spite of errors in it.")
@@ -85,6 +88,7 @@ def command(
     assume_data: bool,
     entry: str | None,
     explore: int | None,
+    bodies: BodiesAsked,
     trace: Path | None,
     plot: Path | None,
     timed: bool,
@@ -112,6 +116,10 @@ def command(
     limits = limits_of(max_time if explore is None else limit_of_a_run(max_time), max_steps, max_events)
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     surroundings, diagnostics = _assuming(load_cell(cell), assume_data), collector()
+    if surroundings is not None and surroundings.layout and explore is None and new_cell is None:
+        asked = CellAsked(paths, dialect, robots, entry, limits, reports.controller, despite_errors, bodies, as_json)
+        return run_among_bodies(surroundings, asked, lambda run, loaded: _written(run, loaded, trace, reports))
+    _about_one_robot(paths, bodies)
     read = read_paths(paths, dialect, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
     if new_cell is not None:
@@ -135,6 +143,29 @@ def command(
     beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
     reports.write(result, read, model, layers, beside)
     return 0 if result.status in ("finished", "stopped") else 1
+
+
+def _about_one_robot(paths: Sequence[str], bodies: BodiesAsked) -> None:
+    """Raises UsageError for what only a cell with bodies can do."""
+    if option := bodies.needs_bodies():
+        raise UsageError(f"{option} is about bodies, and there are none: name a cell file that has some with --cell")
+    if not paths:
+        raise UsageError("no program: name its PATH")
+
+
+def _written(run: CellRun, loaded: Sequence[Loaded], trace: Path | None, reports: Reports) -> None:
+    """The files about a run among bodies: every event of each robot, and the page of a robot that is alone."""
+    if trace is not None:
+        several = len(run.robots) > 1
+        named = [(one.place.name, event) for one in run.robots for event in one.result.trace]
+        rows = [event.as_json() | ({"robot": name} if several else {}) for name, event in named]
+        rows.sort(key=lambda row: row["t"])
+        lines = [json.dumps(plain(row), ensure_ascii=False) for row in rows]
+        write_file(trace, "".join(line + "\n" for line in lines).encode("utf-8"))
+    if reports.plot is not None:
+        if len(run.robots) > 1:
+            raise UsageError("--plot draws one robot: `rpl view` shows them all")
+        reports.write(run.robots[0].result, loaded[0].read, run.robots[0].model)
 
 
 def _told(result: RunResult, layers: RunDynamics | None, times: RunTimes | None, as_json: bool) -> None:

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from rpl.cell import Cell, Reaction
     from rpl.emulator.model import RobotModel
     from rpl.motionmodel import MotionModel
+    from rpl.runtime.bodies import Bodies
     from rpl.runtime.linked import Linked
     from rpl.runtime.ports import Task
 
@@ -100,6 +101,8 @@ class Machine:
         self.timers: dict[int, StopWatch] = {}
         self.cyclic: dict[int, tuple[Values, Read]] = {}  # flag -> frame and expression
         self.evaluating: list[int] = []  # cyclic flags that are being read
+        self.bodies: Bodies | None = None  # what is around the robot, in a cell that has bodies
+        self.outside = False  # may a machine of another robot still switch something here?
         self.random = random.Random(cell.seed)
         self.reactions = Reactions(linked, cell.reactions)
         self.reacted: Counter[Reaction] = Counter()  # how often there was a cause, of those that do not always come
@@ -139,7 +142,7 @@ class Machine:
 
     def has_future(self) -> bool:
         """Is anything to come that the present task does not do itself?"""
-        return bool(self.agenda)
+        return self.outside or bool(self.agenda)
 
     def ready(self, task: Task) -> None:
         """Let the task run at this moment."""
@@ -193,6 +196,8 @@ class Machine:
                 self._interrupt_time(self.tasks[index], data[0], data[1])
             case "input":
                 self.set_input(data[0], data[1])
+            case "deed" if self.bodies is not None:
+                self.bodies.happen(data[0])
             case "output":
                 self.timed_outputs -= 1
                 self.timed = data[4]
@@ -414,7 +419,9 @@ class Machine:
         for each in reactions:
             if each.unanswered:
                 self.reacted[each] += 1
-            if self.reacted[each] not in each.unanswered:
+            if each.deed:
+                self.schedule(self.now, INPUTS, "deed", 0, each.deed)
+            elif self.reacted[each] not in each.unanswered:
                 self.schedule(self.now + each.after_s, INPUTS, "input", 0, each.signal, each.result)
 
     def physical_name(self, key: Key, port: SignalRef, task: Task) -> str:

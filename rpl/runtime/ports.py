@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from rpl.ir.rules import Rules
     from rpl.motionmodel import MotionModel
     from rpl.runtime.assumed import Assumed
+    from rpl.runtime.bodies import Bodies
     from rpl.runtime.code import Code, Frame, Read, Values
     from rpl.runtime.faults import ProgramError
     from rpl.runtime.interrupts import Interrupt, Interrupts
@@ -77,6 +78,8 @@ class Machine(Protocol):
     def random(self) -> random.Random: ...
     @property
     def waited(self) -> list[Waited]: ...
+    @property
+    def bodies(self) -> Bodies | None: ...
     @property
     def paused(self) -> bool: ...
     @property

@@ -1,58 +1,18 @@
 """What a run of a cell shows, for reports, for the search for collisions and for drawing it: each robot with its trace,
-and where every part was when."""
+and what happened to the bodies."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from rpl.cell.layout import Layout, RobotPlace
-from rpl.emulator.rotations import FloatArray
+from rpl.cell.record import Grasp, Opening, Placed, State, pose_between
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
     from rpl.ir.modules import Program
     from rpl.runtime.trace import RunResult
-
-# rests: stands where it is. held: goes with the flange that holds it. falls: on its way to its next entry, straight
-# from this place to that one. lost: nothing of the cell is below it.
-State = Literal["rests", "held", "falls", "lost"]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Placed:
-    """A part from a moment on. `pose` (4, 4): in the cell, or where a gripper holds it, in the flange of the gripper's
-    robot. `on`: the fixture or part that it rests on, or the gripper that holds it."""
-
-    t: float
-    part: str
-    state: State
-    pose: FloatArray
-    on: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Grasp:
-    """A gripper has closed. `part`: what it was about, "" where nothing was there; `why`: it holds nothing."""
-
-    t: float
-    gripper: str
-    part: str
-    ok: bool
-    why: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Opening:
-    """A gripper has opened. `open`: FALSE where it closes; `width_mm`: of its jaws then."""
-
-    t: float
-    gripper: str
-    open: bool
-    width_mm: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +27,8 @@ class RobotRun:
 
 @dataclass(frozen=True, slots=True)
 class CellRun:
-    """A run of a whole cell. `placed`, by time: the places of each part, the first at 0 s."""
+    """A run of a whole cell. `placed`, by time: the places of each part, the first at 0 s. `status`: the worst of the
+    robots'; `fault`: what each of those that did not end waits for, or why it stopped."""
 
     layout: Layout
     robots: tuple[RobotRun, ...]
@@ -84,19 +45,4 @@ class CellRun:
         return [one for one in self.placed if one.part == part]
 
 
-def pose_between(places: Sequence[Placed], t: float) -> tuple[FloatArray, str]:
-    """Where a part is at a time: its pose (4, 4) and "" in the cell, or the gripper in whose robot's flange it is.
-
-    `places` are those of one part by time, the first at or before `t`. A falling part goes straight, and turns at once
-    at the end of its way.
-    """
-    number = max((i for i, one in enumerate(places) if one.t <= t), default=0)
-    here = places[number]
-    if here.state == "held":
-        return here.pose, here.on
-    if here.state != "falls" or number + 1 == len(places) or places[number + 1].t <= here.t:
-        return here.pose, ""
-    after = places[number + 1]
-    pose = here.pose.copy()
-    pose[:3, 3] += (after.pose[:3, 3] - here.pose[:3, 3]) * ((t - here.t) / (after.t - here.t))
-    return np.asarray(pose), ""
+__all__ = ["CellRun", "Grasp", "Opening", "Placed", "RobotRun", "State", "pose_between"]

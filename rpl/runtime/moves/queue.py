@@ -288,6 +288,8 @@ class MotionQueue(RobotState):
         self.piece = piece
         self.generation += 1
         self.schedule(piece.end_s, "arrive")
+        if self.machine.bodies is not None:
+            self.machine.bodies.begins(now, piece.end_s)
         drive = piece.drive
         if self.regained is not None:
             return  # on the way back to the path nothing of the move happens
