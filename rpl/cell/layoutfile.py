@@ -39,6 +39,7 @@ from rpl.cell.layout import (
 from rpl.cell.rows import RowReader, Value
 from rpl.cell.shapes import Box, Capsule, Cylinder, Extrusion, Shape, Sphere
 from rpl.emulator.rotations import FloatArray, pose_matrix, zyx_to_matrix
+from rpl.errors import UsageError
 from rpl.tomlfile import FARTHEST
 
 TABLES = ("robot", "gripper", "fixture", "bin", "part", "sensor", "wire", "removal", "bodies")
@@ -118,13 +119,13 @@ class LayoutReader(RowReader):
 
     def mesh(self, key: str, row: dict[str, Value]) -> Shape:
         """The form of a file beside the cell file."""
-        from rpl.cell.meshes import MeshError, load_mesh
+        from rpl.cell.meshes import load_mesh
 
         name = self.text(key, row, "mesh")
-        scale = self.number(key, row, "scale", 1.0, above=0.0)
+        scale = self.number(key, row, "scale", 1.0, above=0.0) if "scale" in row else None
         try:
             return load_mesh(Path(self.path).parent / name, scale)
-        except MeshError as error:
+        except UsageError as error:
             raise self.wrong(f"{key}.mesh", str(error)) from None
 
     def sizes(self, key: str, given: Value, count: int) -> tuple[float, ...]:
