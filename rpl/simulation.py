@@ -152,7 +152,8 @@ class Simulation(Machine):
     def _stand_among(self, layout: Layout, place: tuple[World, str] | None) -> None:
         """The bodies of the cell are around the robot."""
         from rpl.cell.world import World
-        from rpl.runtime.bodies import Bodies
+        from rpl.runtime.bodies import Bodies, deeds
+        from rpl.runtime.reactions import Reactions
 
         if place is None:
             if len(layout.robots) > 1:
@@ -161,6 +162,7 @@ class Simulation(Machine):
         if all(task.robot is None or task.robot.model is None for task in self.tasks):
             raise UsageError(f"{layout.path}: bodies need a robot whose moves take time: name one (--robot)")
         world, name = place
+        self.reactions = Reactions(self.linked, (*self.cell.reactions, *deeds(world, name)))
         self.bodies = Bodies(self, world, name, layout.robot(name).base)
 
     def _robots_are_driven(self) -> None:

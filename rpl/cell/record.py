@@ -11,8 +11,8 @@ import numpy as np
 from rpl.emulator.rotations import FloatArray
 
 # rests: stands where it is. held: goes with the flange that holds it. falls: on its way to its next entry, straight
-# from this place to that one. lost: nothing of the cell is below it.
-State = Literal["rests", "held", "falls", "lost"]
+# from this place to that one. lost: nothing of the cell is below it. gone: taken away.
+State = Literal["rests", "held", "falls", "lost", "gone"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -135,6 +135,19 @@ def command(
             result = run_program(program, model, surroundings, entry, None, None, None, limits, driver, further)
     except RunInterrupted as stopped:
         return _interrupted(stopped, trace)
+    return _ended(result, read, model, surroundings, reports, trace, as_json)
+
+
+def _ended(
+    result: RunResult,
+    read: ReadProgram,
+    model: RobotModel | None,
+    surroundings: Cell | None,
+    reports: Reports,
+    trace: Path | None,
+    as_json: bool,
+) -> int:
+    """Say and write what a run has shown; the exit status."""
     _remark(result, model)
     layers, times = reports.layers(result, model), reports.times(result, model)
     _told(result, layers, times, as_json)

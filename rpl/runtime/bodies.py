@@ -3,17 +3,23 @@ and what follows from them as inputs."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from rpl.cell import Reaction
-from rpl.runtime.reactions import Reactions
 
 if TYPE_CHECKING:
     from rpl.cell.world import World
     from rpl.emulator.rotations import FloatArray
-    from rpl.runtime.machine import Machine
+    from rpl.runtime.ports import Machine
 
 _INPUTS = 0  # the phase of a moment in which the world acts
+
+
+def deeds(world: World, robot: str) -> Iterator[Reaction]:
+    """What a robot's outputs do to bodies, as reactions to them."""
+    for switch, deed in world.switches(robot):
+        yield Reaction(switch.signal, switch.value, 0.0, "", None, (), deed)
 
 
 class Bodies:
@@ -21,10 +27,6 @@ class Bodies:
 
     def __init__(self, machine: Machine, world: World, robot: str, base: FloatArray) -> None:
         self.machine, self.world, self.robot, self.base = machine, world, robot, base
-        reactions = [
-            Reaction(switch.signal, switch.value, 0.0, "", None, (), deed) for switch, deed in world.switches(robot)
-        ]
-        machine.reactions = Reactions(machine.linked, (*machine.cell.reactions, *reactions))
         world.join(robot, self)
 
     @property

@@ -37,9 +37,8 @@ if TYPE_CHECKING:
     from rpl.cell import Cell, Reaction
     from rpl.emulator.model import RobotModel
     from rpl.motionmodel import MotionModel
-    from rpl.runtime.bodies import Bodies
     from rpl.runtime.linked import Linked
-    from rpl.runtime.ports import Task
+    from rpl.runtime.ports import Bodies, Task
 
 # Phases of one moment, in order.
 INPUTS, ARRIVALS, TIMERS, TASKS, MOTION = range(5)

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from rpl.ir.rules import Rules
     from rpl.motionmodel import MotionModel
     from rpl.runtime.assumed import Assumed
-    from rpl.runtime.bodies import Bodies
     from rpl.runtime.code import Code, Frame, Read, Values
     from rpl.runtime.faults import ProgramError
     from rpl.runtime.interrupts import Interrupt, Interrupts
@@ -109,6 +108,13 @@ class Machine(Protocol):
     def deadlock(self, task: Task, what: str) -> None: ...
     def end_beyond_limits(self, task: Task) -> None: ...
     def task_ended(self, task: Task) -> None: ...
+
+
+class Bodies(Protocol):
+    """The bodies around a robot, in a cell that has some (see rpl.runtime.bodies)."""
+
+    def happen(self, deed: str) -> None: ...
+    def begins(self, start_s: float, end_s: float) -> None: ...
 
 
 class Task(Protocol):

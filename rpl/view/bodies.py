@@ -58,7 +58,7 @@ def bodies_of(run: CellRun) -> tuple[Drawn, ...]:
     """All bodies of a cell, those that stand first."""
     layout = run.layout
     found = [
-        Drawn(one.name, "bin" if one.keeps else "fixture", body.shape, body.at, BIN if one.keeps else FIXTURE)
+        Drawn(one.name, "bin" if one.inside else "fixture", body.shape, body.at, BIN if one.inside else FIXTURE)
         for one in layout.fixtures
         for body in one.bodies
     ]

@@ -97,9 +97,9 @@ def its_share(cell: Cell, robot: str) -> Cell:
     for one in cell.reactions:
         if (when := _own(robot, one.when)) is None:
             continue
-        if (signal := _own(robot, one.signal)) is None:
+        if (answer := _own(robot, one.signal)) is None:
             raise UsageError(f"{cell.path}: {one.when} and {one.signal} are signals of two robots: use a [[wire]]")
-        reactions.append(replace(one, when=when, signal=signal))
+        reactions.append(replace(one, when=when, signal=answer))
     inputs = [replace(one, signal=mine) for one in cell.inputs if (mine := _own(robot, one.signal)) is not None]
     values = {rest: value for name, value in cell.variables.items() if (rest := _own(robot, name)) is not None}
     return replace(cell, inputs=tuple(inputs), reactions=tuple(reactions), variables=values)

@@ -40,7 +40,7 @@ LAYOUT = Layout(
     ),
     fixtures=(
         Fixture("table", (Body(Box((600.0, 800.0, 40.0)), at(600.0, 0.0, -20.0)),)),
-        Fixture("bin", (Body(Box((10.0, 300.0, 100.0)), at(350.0, 300.0, 50.0)),), keeps=True),
+        Fixture("bin", (Body(Box((10.0, 300.0, 100.0)), at(350.0, 300.0, 50.0)),), inside=(300.0, 300.0, 100.0)),
     ),
     parts=(Part("plug", Cylinder(30.0, 60.0), at(500.0, 0.0, 30.0)),),
 )
