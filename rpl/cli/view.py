@@ -28,6 +28,7 @@ from rpl.cli.output import (
 )
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
+from rpl.view.camera import VIEWS
 
 if TYPE_CHECKING:
     from rpl.runtime.limits import Limits
@@ -46,6 +47,16 @@ if TYPE_CHECKING:
     metavar="F.html",
     help="Write a page that plays the run and opens from disk.",
 )
+@click.option(
+    "--picture",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="F.png",
+    help="Write a picture of the cell at a time.",
+)
+@click.option("--at", "at_s", type=float, metavar="S", help="The time of the picture; else the end of the run.")
+@click.option(
+    "--side", type=click.Choice(tuple(VIEWS)), default="isometric", help="Where the picture is taken from (isometric)."
+)
 @limit_options
 @force_option
 @verbose_option
@@ -57,6 +68,9 @@ def command(
     cell: str | None,
     entry: str | None,
     save: Path | None,
+    picture: Path | None,
+    at_s: float | None,
+    side: str,
     max_time: float | None,
     max_steps: int | None,
     max_events: int | None,
@@ -66,25 +80,44 @@ def command(
 
     Exit status 0 when the page is written, whatever the run came to; 1 for a program with errors.
     """
-    if save is None:
-        raise UsageError("where to? --save F.html writes a page")
+    if save is None and picture is None:
+        raise UsageError("where to? --save F.html writes a page, --picture F.png a picture")
+    if at_s is not None and picture is None:
+        raise UsageError("--at is the time of --picture F.png")
     robots_exist(robot)
-    refuse_others([save])
+    refuse_others([path for path in (save, picture) if path is not None])
     run = _run(paths, dialect, robot, cell, entry, limits_of(max_time, max_steps, max_events))
     if run is None:
         return 1
-    from rpl.view.document import view_document
-    from rpl.view.page import view_page
+    with waiting("drawing"):
+        files = _drawn(run, save, picture, run.time_s if at_s is None else at_s, side)
+    for path, data in files.items():
+        write_file(path, data)
+    if as_json:
+        print_json(
+            {"status": run.status, "time_s": round(run.time_s, 6), "files": [{"path": str(path)} for path in files]}
+        )
+    else:
+        wrote = ", ".join(f"{path} ({len(data) / 1e6:.1f} MB)" for path, data in files.items())
+        say(f"{run.status} after {run.time_s:.3f} s; wrote {wrote}")
+    return 0
+
+
+def _drawn(run: CellRun, save: Path | None, picture: Path | None, at_s: float, side: str) -> dict[Path, bytes]:
+    """The files that are asked for."""
     from rpl.view.scene import scene_of
 
-    with waiting("drawing"):
-        data = view_page(view_document(scene_of(run), _title(run))).encode("utf-8")
-    write_file(save, data)
-    if as_json:
-        print_json({"status": run.status, "time_s": round(run.time_s, 6), "files": [{"path": str(save)}]})
-    else:
-        say(f"{run.status} after {run.time_s:.3f} s; wrote {save} ({len(data) / 1e6:.1f} MB)")
-    return 0
+    scene, files = scene_of(run), {}
+    if save is not None:
+        from rpl.view.document import view_document
+        from rpl.view.page import view_page
+
+        files[save] = view_page(view_document(scene, _title(run))).encode("utf-8")
+    if picture is not None:
+        from rpl.view.picture import picture as taken
+
+        files[picture] = taken(scene, at_s, side)
+    return files
 
 
 def _run(

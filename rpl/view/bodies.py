@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from rpl.cell.armbodies import arm_bodies
 from rpl.cell.shapes import Box, Shape
 from rpl.emulator.rotations import FloatArray, pose_matrix
-from rpl.view.standin import arm_bodies, zero_poses
 
 if TYPE_CHECKING:
     from rpl.cell.layout import Gripper
@@ -82,14 +82,13 @@ def robot_of(run: CellRun, name: str) -> int:
 
 def arm_drawn(model: RobotModel, number: int, name: str) -> list[Drawn]:
     """The links of an arm; every second one a little lighter, so that one sees them turn."""
-    poses = zero_poses(model)
     found = []
     for body in arm_bodies(model):
         colour = ROBOTS[number % len(ROBOTS)]
         if body.link % 2:
             colour = (_lighter(colour[0]), _lighter(colour[1]), _lighter(colour[2]))
         label = f"{name} link {body.link}" if body.link else f"{name} base"
-        found.append(Drawn(label, "arm", body.shape, poses[body.link] @ body.at, colour, number, body.link))
+        found.append(Drawn(label, "arm", body.shape, body.at, colour, number, body.link))
     return found
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rpl.cell.armbodies import link_poses
 from rpl.emulator.rotations import FloatArray
 from rpl.view.bodies import Drawn, bodies_of, robot_of
 from rpl.view.screws import Screws, screws_of
@@ -42,16 +43,16 @@ class Scene:
     collisions: tuple[Contact, ...] = ()
 
     def links_at(self, robot: int, joints: FloatArray) -> FloatArray:
-        """Displacements of a robot's links from their places at zero (links + 1, 4, 4), in the cell."""
-        screws = self.screws[robot]
-        assert screws is not None
-        return np.asarray(self.run.robots[robot].place.base @ screws.displacements(joints[None])[0])
+        """The frames of a robot's links (links + 1, 4, 4) in the cell."""
+        run = self.run.robots[robot]
+        assert run.model is not None
+        return np.asarray(run.place.base @ link_poses(run.model, joints[None])[0])
 
     def flange_at(self, robot: int, joints: FloatArray) -> FloatArray:
         """The flange (4, 4) of a robot in the cell."""
-        screws = self.screws[robot]
-        assert screws is not None
-        return np.asarray(self.links_at(robot, joints)[-1] @ screws.flange)
+        run = self.run.robots[robot]
+        assert run.model is not None
+        return np.asarray(run.place.base @ run.model.forward(joints))
 
     def joints_at(self, t: float) -> list[FloatArray | None]:
         """Joints of all robots at a time; None for those without a model."""

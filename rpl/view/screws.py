@@ -1,8 +1,7 @@
-"""An arm as a product of exponentials: how each link is displaced from where it is with all arm variables zero.
+"""An arm as a product of exponentials: the numbers with which a page moves it, whatever family it belongs to.
 
-A page can move an arm by this alone, whatever family it belongs to: per joint a point and a direction. Source:
-Brockett, Robotic manipulators and the product of exponentials formula (1984); Lynch and Park, Modern Robotics (2017),
-section 4.1.
+Per joint a point and a direction: `rpl.cell.armbodies.link_poses` does the same with the arm itself. Source: Lynch and
+Park, Modern Robotics (2017), section 4.1.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rpl.emulator.rotations import FloatArray, pose_matrix, rotation_vector_to_matrix
+from rpl.emulator.rotations import FloatArray
 
 if TYPE_CHECKING:
     from rpl.emulator.model import RobotModel
@@ -31,21 +30,6 @@ class Screws:
     offsets: FloatArray
     unit: FloatArray
     flange: FloatArray
-
-    def displacements(self, joints: FloatArray) -> FloatArray:
-        """How far each link is from where it is at zero: (k, n + 1, 4, 4) for pendant joints (k, n); link 0 is the
-        base, which stands still."""
-        theta = (joints @ self.matrix.T - self.offsets) * self.unit
-        found = [np.broadcast_to(np.eye(4), (len(theta), 4, 4))]
-        for number, slides in enumerate(self.sliding):
-            point, direction, amount = self.points[number], self.directions[number], theta[:, number]
-            if slides:
-                step = pose_matrix(amount[:, None] * direction)
-            else:
-                turn = rotation_vector_to_matrix(amount[:, None] * direction)
-                step = pose_matrix(point - turn @ point, turn)
-            found.append(found[-1] @ step)
-        return np.stack(found, axis=1)
 
 
 def screws_of(model: RobotModel) -> Screws:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rpl.emulator.model import load_robot, robot_names
+from rpl.emulator.rotations import pose_matrix, rotation_vector_to_matrix
 from rpl.view.scene import Scene, scene_of
 from rpl.view.screws import screws_of
 from tests.view.cells import IN_HAND, cell_run
@@ -21,10 +22,14 @@ def test_screws_bring_the_flange_where_forward_kinematics_has_it(name: str) -> N
     model = load_robot(name)
     joints = np.random.default_rng(7).uniform(-170.0, 170.0, (20, model.axes))
     screws = screws_of(model)
-    found = screws.displacements(joints)
-    assert found.shape == (20, model.axes + 1, 4, 4)
-    assert found[:, -1] @ screws.flange == pytest.approx(model.forward(joints), abs=1e-8)
-    assert found[:, 0] == pytest.approx(np.broadcast_to(np.eye(4), (20, 4, 4)))
+    theta = (joints @ screws.matrix.T - screws.offsets) * screws.unit
+    for number in range(20):
+        pose = np.eye(4)
+        for axis, slides in enumerate(screws.sliding):
+            turn = np.eye(3) if slides else rotation_vector_to_matrix(theta[number, axis] * screws.directions[axis])
+            way = theta[number, axis] * screws.directions[axis] if slides else np.zeros(3)
+            pose = pose @ pose_matrix(way + screws.points[axis] - turn @ screws.points[axis], turn)
+        assert pose @ screws.flange == pytest.approx(model.forward(joints[number]), abs=1e-8)
 
 
 def pose_of(scene: Scene, name: str, t: float, which: int = 0) -> np.ndarray:

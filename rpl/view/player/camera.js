@@ -6,16 +6,23 @@ const TURN = Math.PI / 180, SIGHT = 30 * TURN;
 const VIEWS = { isometric: [-55, 26], front: [-90, 0], side: [0, 0], top: [-90, 89.9] };
 
 class Camera {
-  constructor(bounds) {
+  constructor(bounds, aspect) {
     this.bounds = bounds;
+    this.aspect = aspect;
     this.view("isometric");
   }
   view(name) {
     const [low, high] = this.bounds;
     this.target = low.map((value, k) => (value + high[k]) / 2);
     this.radius = Math.max(Math.hypot(...low.map((value, k) => high[k] - value)) / 2, 100);
-    this.distance = (1.02 * this.radius) / Math.sin(SIGHT / 2);
     [this.azimuth, this.elevation] = VIEWS[name].map((angle) => angle * TURN);
+    // So far away that the corners of the bounds just fit.
+    const axes = this.axes(), half = low.map((value, k) => (high[k] - value) / 2), room = Math.tan(SIGHT / 2) / Math.min(this.aspect, 1);
+    this.distance = 100;
+    for (let n = 0; n < 8; n++) {
+      const corner = half.map((value, k) => (n & (1 << k) ? value : -value)), [x, y, z] = axes.map((axis) => axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2]);
+      this.distance = Math.max(this.distance, 1.08 * (z + Math.max(Math.abs(x) / (room * this.aspect), Math.abs(y) / room)));
+    }
   }
   back() {
     const c = Math.cos(this.elevation);

@@ -96,7 +96,6 @@ class Drawing {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    gl.polygonOffset(1, 1);
   }
   program(vertex, fragment, places) {
     const gl = this.gl, made = gl.createProgram();
@@ -162,7 +161,8 @@ class Drawing {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
   }
   static matrix(a) { return [a[0], a[4], a[8], 0, a[1], a[5], a[9], 0, a[2], a[6], a[10], 0, a[3], a[7], a[11], 1]; }
-  // Bodies: { shape, place, colour, alpha, glow, edges }. What is seen through comes last.
+  // Bodies: { shape, place, colour, alpha, glow, behind: where another one is in the same place }. What is seen through
+  // comes last.
   bodies(list) {
     const gl = this.gl;
     [false, true].forEach((through) => {
@@ -170,7 +170,7 @@ class Drawing {
       if (!chosen.length) return;
       if (through) { gl.enable(gl.BLEND); gl.depthMask(false); }
       gl.enable(gl.POLYGON_OFFSET_FILL);
-      this.each(this.body, chosen, (one) => { gl.uniform1f(this.body.glow, one.glow || 0); gl.bindVertexArray(one.shape.triangles); gl.drawArrays(gl.TRIANGLES, 0, one.shape.count); });
+      this.each(this.body, chosen, (one) => { gl.polygonOffset(1, 1 + (one.behind || 0)); gl.uniform1f(this.body.glow, one.glow || 0); gl.bindVertexArray(one.shape.triangles); gl.drawArrays(gl.TRIANGLES, 0, one.shape.count); });
       gl.disable(gl.POLYGON_OFFSET_FILL);
       this.each(this.edge, chosen, (one) => { if (one.shape.edges) { gl.bindVertexArray(one.shape.lines); gl.drawArrays(gl.LINES, 0, one.shape.edges); } });
       gl.disable(gl.BLEND);

@@ -33,7 +33,7 @@
     motion.arms.forEach((arm) => { if (arm) for (let k = 0; k < arm.path.length; k += 3) take([arm.path[k], arm.path[k + 1], arm.path[k + 2]], 0); });
     return low[0] <= high[0] ? [low, high] : [[-500, -500, 0], [500, 500, 500]];
   }
-  const bounds = boundsOfAll(), camera = new Camera(bounds), size = camera.radius;
+  const bounds = boundsOfAll(), camera = new Camera(bounds, get("scene").clientWidth / Math.max(get("scene").clientHeight, 1)), size = camera.radius;
   const fastest = motion.arms.reduce((most, arm) => (arm ? arm.speed.reduce((top, value) => Math.max(top, value), most) : most), 1);
   get("slow").textContent = "0";
   get("fast").textContent = fastest.toFixed(0) + " mm/s";
@@ -75,7 +75,7 @@
     const now = hits.filter((event) => Math.abs(event.t - state.time) < SEEN_S), names = new Set(now.flatMap((event) => event.names));
     drawing.begin(camera);
     drawing.lines([{ pieces: made3d.grid, width: 1, flat: true }]);
-    const bodies = run.bodies.map((body, n) => ({ shape: shapes[body.shape], place: places.bodies[n], colour: body.colour.map((value) => value / 255), alpha: body.kind === "sensor" ? 0.25 : 1, glow: names.has(body.name) ? 0.75 : 0 }));
+    const bodies = run.bodies.map((body, n) => ({ shape: shapes[body.shape], place: places.bodies[n], colour: body.colour.map((value) => value / 255), alpha: body.kind === "sensor" ? 0.25 : 1, glow: names.has(body.name) ? 0.75 : 0, behind: body.link % 2 ? 6 : 0 }));
     places.tools.forEach((tool) => { if (tool) bodies.push({ shape: made3d.dot, place: tool, colour: [0.9, 0, 0.48], alpha: 1 }); });
     hits.forEach((event) => { if (event.point) bodies.push({ shape: now.includes(event) ? made3d.hit : made3d.dot, place: at(event.point), colour: [0.85, 0.1, 0.1], alpha: 1, glow: 1 }); });
     drawing.bodies(bodies);
@@ -216,7 +216,7 @@
 
   const views = Object.keys(VIEWS);
   function look(name) {
-    if (VIEWS[name]) { state.follow = -1; camera.view(name); }
+    if (VIEWS[name]) { state.follow = -1; camera.aspect = get("scene").clientWidth / Math.max(get("scene").clientHeight, 1); camera.view(name); }
     else { state.follow = Math.max(motion.arms.findIndex(Boolean), 0); camera.zoom(0.45); }
     [...get("cameras").children].forEach((button) => button.classList.toggle("on", button.textContent === name));
     change();
