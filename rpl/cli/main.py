@@ -41,6 +41,7 @@ COMMANDS = {
     "prove": "Decide by running both whether two programs mean the same.",
     "fk": "Forward kinematics: joints to a pose in a dialect's notation.",
     "ik": "Inverse kinematics: a pose to all joint solutions.",
+    "stable": "Show how a part can rest on a surface, and how likely.",
     "fetch": "Fetch the programs of a robot controller.",
     "send": "Send programs to a robot controller, all or none, with a backup.",
     "status": "Show who a controller is and what it is doing.",
