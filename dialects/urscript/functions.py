@@ -203,7 +203,7 @@ _VENDOR = """
         torque_command optimovej optimovel screwdriving protective_stop powerdown
         conveyor_pulse_decode track_conveyor_linear track_conveyor_circular stop_conveyor_tracking
         set_tool_contact end_tool_contact path_offset_set modbus_send_custom_command request_popup
-        pendant_node set_pos
+        pendant_node set_pos interpreter_mode end_interpreter clear_interpreter
 """
 _VENDOR_VALUES = """
     b: socket_open request_boolean_from_primary_client is_freedrive

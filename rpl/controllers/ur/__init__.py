@@ -22,6 +22,7 @@ VENDOR = Vendor(
         "primary": 30001,
         "secondary": 30002,
         "realtime": 30003,
+        "interpreter": 30020,
     },
     path="/programs",
     rules=SendingRules(

@@ -20,7 +20,7 @@ _LONGEST = 2**21  # bytes of one program
 _STATE, _MESSAGE = 16, 20
 _EVERY = {"primary": 50, "secondary": 50, "realtime": 1}  # ticks of 2 ms
 _OPENS = re.compile(r"\s*(?:def|sec|thread)\s+\w+\s*\(")
-_BLOCK = re.compile(r"\b(?:def|sec|thread|if|while|for)\b.*:\s*$")
+BLOCK = re.compile(r"\b(?:def|sec|thread|if|while|for)\b.*:\s*$")
 REALTIME_SIZE = 1220
 
 
@@ -99,7 +99,7 @@ def _end_of(text: str) -> int | None:
             return None
         place += len(line)
         said = line.partition("#")[0].strip()
-        if _BLOCK.match(said):
+        if BLOCK.match(said):
             depth += 1
         elif said == "end":
             depth -= 1

@@ -1,4 +1,5 @@
-"""The virtual controller: SFTP, dashboard, RTDE, and the ports that take text and run it, in front of one cabinet."""
+"""The virtual controller: SFTP, dashboard, RTDE, and the ports that take text and run it, in front of one
+cabinet."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ from functools import partial
 from rpl.controllers.sftp.server import open_sftp
 from rpl.controllers.ur import VENDOR
 from rpl.controllers.ur.dashboard_server import serve_dashboard
+from rpl.controllers.ur.interpreter import Interpreter
 from rpl.controllers.ur.panel import Panel
 from rpl.controllers.ur.pushed import Pushed
 from rpl.controllers.ur.rtde_server import Rtde, tick
@@ -25,4 +27,6 @@ async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
     await endpoints.stream("rtde", VENDOR.ports["rtde"], rtde.serve)
     for port in ("primary", "secondary", "realtime"):
         await endpoints.stream(port, VENDOR.ports[port], partial(pushed.serve, port))
-    endpoints.beside(tick(moment, [rtde.send, pushed.send]))
+    interpreter = Interpreter(panel)
+    await endpoints.stream("interpreter", VENDOR.ports["interpreter"], interpreter.serve)
+    endpoints.beside(tick(moment, [interpreter.look, rtde.send, pushed.send]))

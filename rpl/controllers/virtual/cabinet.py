@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from rpl import ir
+from rpl.controllers.virtual import within
 from rpl.controllers.virtual.faults import DroppedError, Faults
 from rpl.controllers.virtual.store import NotDoneError, Store
 from rpl.controllers.virtual.transcript import Kind, Transcript
@@ -26,6 +27,7 @@ from rpl.simulation import Simulation
 from rpl.source import Source, source_from_bytes
 
 if TYPE_CHECKING:
+    from rpl.cell import Cell
     from rpl.emulator.model import RobotModel
     from rpl.emulator.rotations import FloatArray
     from rpl.runtime.signals import Key
@@ -51,7 +53,8 @@ def _run_on(simulation: Simulation, seconds: float) -> bool:
 
 @dataclass
 class Cabinet:
-    """dialect: the language of its programs. `store`: its files. `time_scale`: simulated seconds of one real second."""
+    """dialect: the language of its programs. `store`: its files. `time_scale`: simulated seconds of one real second.
+    `cell`: what its own statements stand for. `sources`: the texts of the selected program."""
 
     vendor: str
     dialect: str
@@ -70,7 +73,11 @@ class Cabinet:
     messages: list[str] = field(default_factory=list)
     lock: threading.RLock = field(default_factory=threading.RLock, repr=False)
     requests: int = 0
+    cell: Cell | None = None
+    fit: within.Fit = within.as_it_is
+    sources: tuple[Source, ...] = ()
     _simulation: Simulation | None = field(default=None, repr=False)
+    _waiting: tuple[Simulation, Callable[[Simulation], None]] | None = field(default=None, repr=False)
     _keys: tuple[Simulation | None, dict[str, frozenset[Key]]] = field(default=(None, {}), repr=False)
     _standing: tuple[float, ...] | None = field(default=None, repr=False)
     _wall_s: float = 0.0
@@ -137,16 +144,40 @@ class Cabinet:
         read, diagnostics = self._read_sources(sources)
         if diagnostics.has_errors:
             return list(diagnostics.of(Severity.ERROR))
-        simulation = Simulation(read.program, self.model, None, entry, on_event=self._happened, limits=_ENDLESS)
+        simulation = self.made(read, entry)
         with self.lock:
             for name, value in self._signals.items():
                 simulation.set_input(name, value)
             self._keep_data(simulation, anew.lower())
             self._stand(simulation)
-            self._simulation = simulation
+            self._simulation, self._waiting, self.sources = simulation, None, tuple(sources)
             self.program = entry or sources[0].path
             self.phase = "stopped"
             return []
+
+    def made(self, read: ReadProgram, entry: str | None) -> Simulation:
+        """A program as it begins on this controller. Raises RplError."""
+        return Simulation(read.program, self.model, self.cell, entry, on_event=self._happened, limits=_ENDLESS)
+
+    def run_within(self, other: Simulation, ended: Callable[[Simulation], None]) -> None:
+        """Run another program in the place of the one that waits, from where it stands, to its end; then `ended` hears
+        of it and the first one goes on. A fault in it ends both."""
+        with self.lock:
+            if self._simulation is None or self._waiting is not None:
+                raise NotDoneError("busy", self.program)
+            self.advance()
+            within.carry(self._simulation, other, self.fit)
+            self._waiting, self._simulation = (self._simulation, ended), other
+
+    @property
+    def outer(self) -> Simulation | None:
+        """The selected program, also while another one runs in its place."""
+        return self._waiting[0] if self._waiting is not None else self._simulation
+
+    @property
+    def is_within(self) -> bool:
+        """Does another program run in the place of the selected one?"""
+        return self._waiting is not None
 
     def _keep_data(self, simulation: Simulation, anew: str) -> None:
         """Data that the controller keeps from one run to the next has its last value."""
@@ -190,7 +221,15 @@ class Cabinet:
         with self.lock:
             self.advance()
             self._keep_standing()
-            self.phase, self._simulation = "stopped", None
+            self.phase, self._simulation, self._waiting = "stopped", None, None
+
+    def end_move(self) -> None:
+        """Brake the move that is driven now; the program goes on behind it."""
+        with self.lock:
+            self.advance()
+            task = within.moving_task(self._simulation) if self._simulation is not None else None
+            if task is not None and task.robot is not None and not task.robot.is_standing():
+                task.robot.halt(False, ends_move=True)
 
     def press_emergency_stop(self) -> None:
         with self.lock:
@@ -215,11 +254,18 @@ class Cabinet:
                 self.messages.append(str(error))
                 goes_on = False
             simulation.trace.clear()
-            if not goes_on or simulation.ended:
+            if not goes_on or simulation.ended or (self._waiting is not None and simulation.tasks[0].has_ended):
                 self._ended(simulation)
 
     def _ended(self, simulation: Simulation) -> None:
         fault = simulation.end_fault
+        if self._waiting is not None:
+            outer, ended = self._waiting
+            within.carry(simulation, outer, self.fit)
+            self._simulation, self._waiting = outer, None
+            ended(simulation)
+            if fault is None:
+                return
         if fault is not None:
             self.messages.append(f"{fault.code}: {fault.message}")
         self._keep_standing()
