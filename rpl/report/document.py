@@ -17,6 +17,7 @@ from rpl.report.external import Curve, curves_as_layers, external_curves
 from rpl.report.labels import NO_LABEL, Labels
 from rpl.report.motion import MoveRow, move_rows, tool_rates, waiting_places
 from rpl.report.sampling import STANDING, STEP_S, RunSamples, driven_moves, sample_run, thinned
+from rpl.report.screws import screws_document, screws_of
 from rpl.report.signals import signal_rows
 
 if TYPE_CHECKING:
@@ -114,6 +115,7 @@ def run_document(
         shown = whole.only(kept)
         data |= {
             "joints": _axes(model),
+            "arm": screws_document(screws_of(model)),
             "samples": _samples(shown, model, speeds[kept], turning[kept]),
             "stretches": _stretches(shown, moves, result, labels),
             "moves": [_move(row, labels) for row in rows[:MOST_ROWS]],

@@ -25,7 +25,25 @@
 
   // ---- tool path
 
-  const chosen = { move: -1 };
+  const chosen = { move: -1 }, now = { row: 0 };
+  const armShown = () => document.getElementById("arm").checked;
+
+  // The arm as a line through its axes, from its base to the flange and on to the tool.
+  function stick(row) {
+    const links = armLinks(Pose.one(), run.arm, samples.joints.map((axis) => axis[row]));
+    const points = run.arm.points.map((point, n) => Pose.point(links[n], point));
+    if (points[0].some((value) => Math.abs(value) > 1)) points.unshift([0, 0, 0]);
+    return [...points, Pose.place(Pose.times(links[links.length - 1], run.arm.flange)), samples.tool.map((axis) => axis[row])];
+  }
+  const columns = (points) => ({ x: points.map((p) => p[0]), y: points.map((p) => p[1]), z: points.map((p) => p[2]) });
+
+  // Of the path, and of the arm where it is shown: lowest and highest value of each axis.
+  function pathBounds() {
+    const bounds = samples.tool.map((axis) => axis.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]));
+    const step = Math.max(1, Math.floor(samples.t.length / 60));
+    if (armShown()) for (let row = 0; row < samples.t.length; row += step) stick(row).forEach((point) => point.forEach((v, k) => { bounds[k] = [Math.min(bounds[k][0], v), Math.max(bounds[k][1], v)]; }));
+    return bounds;
+  }
   const COLOURINGS = {
     "tool speed": () => [samples.tool_speed, "mm/s"],
     "singularity margin": () => [samples.conditioning, "1/cond"],
@@ -76,10 +94,11 @@
       { type: "scatter3d", mode: "markers", name: "ends of moves", ...at(targets), text: pick(lines, targets), hovertemplate: "%{text}<br>%{x:.1f}, %{y:.1f}, %{z:.1f} mm<extra></extra>", marker: { size: 2.5, color: "#1d2733" } },
       { type: "scatter3d", mode: "markers", name: "outputs", ...at(outputs.rows), text: outputs.text, hovertemplate: "%{text}<extra></extra>", marker: { size: 4, color: "#d55e00", symbol: "diamond" } },
       { type: "scatter3d", mode: "lines", name: "chosen move", ...at(picked), hoverinfo: "skip", line: { color: "#e6007a", width: 10 } },
-      { type: "scatter3d", mode: "markers", name: "now", x: [], y: [], z: [], hoverinfo: "skip", marker: { size: 7, color: "#e6007a" } },
+      { type: "scatter3d", mode: "markers", name: "now", ...at([now.row]), hoverinfo: "skip", marker: { size: 7, color: "#e6007a" } },
+      { type: "scatter3d", mode: "lines+markers", name: "arm", visible: armShown(), ...columns(stick(now.row)), hoverinfo: "skip", line: { color: "#e87722", width: 14 }, marker: { size: 6, color: "#8a3f06" } },
     ];
     // One scale for all three axes, the longest as wide as the view: a long thin path stays inside, a flat one visible.
-    const bounds = samples.tool.map((axis) => axis.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]));
+    const bounds = pathBounds();
     const longest = Math.max(1, ...bounds.map(([low, high]) => high - low));
     const widths = bounds.map(([low, high]) => 1.06 * Math.max(high - low, 0.2 * longest));
     const ratios = widths.map((width) => (1.5 * width) / (1.06 * longest));
@@ -257,7 +276,36 @@
     const value = (name, text) => "<span>" + name + " " + text + "</span>";
     readout.innerHTML = "<b>" + samples.t[row].toFixed(3) + " s</b> &nbsp; " + lines[row].replace("<br>", " ") + "<br>" + value("tool", samples.tool.map((axis) => axis[row].toFixed(1)).join(", ") + " mm") + value("", samples.tool_speed[row].toFixed(0) + " mm/s") +
       run.joints.map((joint, n) => value(joint.name, samples.joints[n][row].toFixed(2) + " " + joint.unit + " (" + ((100 * Math.abs(samples.speeds[n][row])) / (joint.speed || Infinity)).toFixed(0) + " %)")).join("");
-    Plotly.restyle("path", { x: [[samples.tool[0][row]]], y: [[samples.tool[1][row]]], z: [[samples.tool[2][row]]] }, [4]);
+    now.row = row;
+    const arm = columns(stick(row)), [x, y, z] = samples.tool.map((axis) => axis[row]);
+    Plotly.restyle("path", { x: [[x], arm.x], y: [[y], arm.y], z: [[z], arm.z] }, [4, 5]);
+    document.getElementById("moment").value = samples.t[row];
+    document.getElementById("clock").textContent = samples.t[row].toFixed(3) + " / " + run.time_s.toFixed(3) + " s";
+  }
+
+  // The bar below the path: plays the run, or is dragged to a time.
+  function listenToPlayer() {
+    const bar = document.getElementById("moment"), button = document.getElementById("play"), pace = document.getElementById("pace");
+    const clock = { on: false, time: 0, before: 0 };
+    [0.1, 0.25, 0.5, 1, 2, 5, 10].forEach((value) => pace.add(new Option("× " + value, value, value === 1, value === 1)));
+    function tick(moment) {
+      if (!clock.on) return;
+      clock.time = Math.min(clock.time + (Number(pace.value) * (moment - clock.before)) / 1000, run.time_s);
+      clock.before = moment;
+      show(rowAt(clock.time));
+      if (clock.time >= run.time_s) play(false); else requestAnimationFrame(tick);
+    }
+    function play(on) {
+      clock.on = on;
+      button.textContent = on ? "❚❚" : "▶";
+      if (!on) return;
+      clock.time = samples.t[now.row] >= run.time_s - 1e-3 ? 0 : samples.t[now.row];
+      requestAnimationFrame((moment) => { clock.before = moment; tick(moment); });
+    }
+    button.addEventListener("click", () => play(!clock.on));
+    bar.addEventListener("input", () => { play(false); show(rowAt(Number(bar.value))); });
+    document.addEventListener("keydown", (event) => { if (event.key === " " && event.target === document.body) { event.preventDefault(); play(!clock.on); } });
+    document.getElementById("arm").addEventListener("change", drawPath);
   }
 
   function choose(move) {
@@ -275,6 +323,7 @@
     Object.keys(COLOURINGS).forEach((name) => select.add(new Option(name, name)));
     select.addEventListener("change", drawPath);
     drawPath();
+    listenToPlayer();
     show(0);
     document.querySelectorAll(".choice button").forEach((button) => button.addEventListener("click", () => {
       mode = button.dataset.mode;

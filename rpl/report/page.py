@@ -34,7 +34,7 @@ def page(document: RunDocument, library: str) -> str:
     import jinja2
 
     folder = resources.files("rpl.report")
-    texts = {name: (folder / name).read_text("utf-8") for name in ("page.html.j2", "page.css", "page.js")}
+    texts = {name: (folder / name).read_text("utf-8") for name in ("page.html.j2", "page.css", "arm.js", "page.js")}
     environment = jinja2.Environment(
         loader=jinja2.DictLoader(texts), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True
     )
@@ -47,7 +47,7 @@ def page(document: RunDocument, library: str) -> str:
         json=script_json(data),
         library=library,
         style=texts["page.css"],
-        script=texts["page.js"],
+        script=texts["arm.js"] + texts["page.js"],
     )
 
 

@@ -1,6 +1,6 @@
 """The data behind the page: one plain document of numbers and texts, the same for the same run.
 
-Joints go in, not poses of links: the page moves the arms by their screws (`rpl.view.screws`). Long arrays are packed
+Joints go in, not poses of links: the page moves the arms by their screws (`rpl.report.screws`). Long arrays are packed
 (`rpl.view.packing`), forms that are alike go in once.
 """
 
@@ -13,12 +13,12 @@ import numpy as np
 
 from rpl.cell.shapes import Shape
 from rpl.emulator.rotations import FloatArray
+from rpl.report.screws import Screws, row_of, screws_document
 from rpl.report.signals import signal_rows
 from rpl.source import Source
 from rpl.view.bodies import Drawn, robot_of
 from rpl.view.packing import packed
 from rpl.view.scene import Scene, first_width
-from rpl.view.screws import Screws
 from rpl.view.tracks import Track, short_names, sources_of
 
 if TYPE_CHECKING:
@@ -58,12 +58,6 @@ def view_document(scene: Scene, title: str) -> Row:
     }
 
 
-def row_of(pose: FloatArray) -> list[float]:
-    """The upper rows of a pose (4, 4): twelve numbers, lengths to 1 micrometre."""
-    rows = np.hstack([np.round(pose[:3, :3], 7), np.round(pose[:3, 3:], 3)]) + 0.0
-    return [int(value) if value == int(value) else value for value in rows.ravel().tolist()]
-
-
 def _robot(run: RobotRun, track: Track, screws: Screws | None, files: list[str]) -> Row:
     name = run.place.name or (run.model.name if run.model is not None else "program")
     tasks = list(dict.fromkeys(one.task for one in track.lines))
@@ -88,14 +82,7 @@ def _robot(run: RobotRun, track: Track, screws: Screws | None, files: list[str])
             }
             for axis, turning in enumerate(model.revolute.tolist())
         ],
-        "screws": {
-            "points": np.round(screws.points, 6).tolist(),
-            "directions": np.round(screws.directions, 9).tolist(),
-            "sliding": list(screws.sliding),
-            "matrix": (screws.unit[:, None] * screws.matrix).tolist(),
-            "offsets": (screws.unit * screws.offsets).tolist(),
-            "flange": row_of(screws.flange),
-        },
+        "screws": screws_document(screws),
         "t": packed(track.times, TIME_S),
         "q": packed(track.joints, JOINT),
         "tool": packed(track.tool, PLACE_MM),

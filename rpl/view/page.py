@@ -11,6 +11,7 @@ from importlib import resources
 from rpl.report.page import script_json
 from rpl.view.document import Row
 
+ARM = "arm.js"  # how an arm moves, as in the page of `rpl run --plot`
 TEXTS = ("page.html.j2", "page.css", "motion.js", "drawing.js", "camera.js", "panels.js", "page.js")
 
 
@@ -18,8 +19,9 @@ def view_page(document: Row) -> str:
     """The whole page as text."""
     import jinja2
 
-    folder = resources.files("rpl.view.player")
-    texts = {name: (folder / name).read_text("utf-8") for name in TEXTS}
+    own = resources.files("rpl.view.player")
+    texts = {ARM: (resources.files("rpl.report") / ARM).read_text("utf-8")}
+    texts |= {name: (own / name).read_text("utf-8") for name in TEXTS}
     environment = jinja2.Environment(
         loader=jinja2.DictLoader(texts), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True
     )
@@ -29,5 +31,5 @@ def view_page(document: Row) -> str:
         fault=document["fault"],
         json=script_json(document),
         style=texts["page.css"],
-        scripts=[texts[name] for name in TEXTS if name.endswith(".js")],
+        scripts=[texts[name] for name in texts if name.endswith(".js")],
     )

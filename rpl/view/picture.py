@@ -152,7 +152,8 @@ class _Picture:
         """Colours (k, 3) of the pixels: light from beside the eye and from above, as in `player/drawing.js`."""
         owner = canvas.owner[seen]
         flat = self._seen(places)[owner][:, :, :2]
-        share = barycentric(flat, seen % canvas.width + 0.5, seen // canvas.width + 0.5)
+        rows, columns = np.divmod(seen, canvas.width)
+        share = barycentric(flat, np.add(columns, 0.5, dtype=np.float64), np.add(rows, 0.5, dtype=np.float64))
         n = np.einsum("kc,kcx->kx", share, normals[owner])
         n /= np.maximum(np.linalg.norm(n, axis=1, keepdims=True), 1e-12)
         to_eye = self.camera.eye - np.einsum("kc,kcx->kx", share, places[owner])

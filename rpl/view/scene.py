@@ -10,8 +10,8 @@ import numpy as np
 
 from rpl.cell.armbodies import link_poses
 from rpl.emulator.rotations import FloatArray
+from rpl.report.screws import Screws, screws_of
 from rpl.view.bodies import Drawn, bodies_of, robot_of
-from rpl.view.screws import Screws, screws_of
 from rpl.view.tracks import Track, track_of
 from rpl.workcell.record import pose_between
 

@@ -10,6 +10,7 @@ import pytest
 
 from rpl.cli.main import run as rpl
 from rpl.emulator.model import load_robot
+from rpl.emulator.rotations import pose_matrix, rotation_vector_to_matrix
 from rpl.report.document import Heading, RunDocument, run_document
 from rpl.report.page import drawing_library, page, script_json
 from rpl.runtime.trace import RunResult
@@ -111,6 +112,19 @@ def test_traces_have_the_runs_numbers(shown: Page, result: RunResult) -> None:
     axis = data["joints"][0]
     assert (axis["low"], axis["high"], axis["speed"], axis["unit"]) == (-170.0, 170.0, 360.0, "deg")
     assert set(samples["factors"]) == {"wrist", "elbow", "shoulder"}
+
+
+def test_the_arm_is_drawn_from_its_screws(shown: Page, result: RunResult) -> None:
+    """What arm.js does with a joint vector, done here with the numbers of the page."""
+    arm = json.loads(shown.json)["arm"]
+    pose = np.eye(4)
+    angles = np.array(arm["matrix"]) @ np.array(result.joints) - np.array(arm["offsets"])
+    for point, direction, sliding, angle in zip(arm["points"], arm["directions"], arm["sliding"], angles, strict=True):
+        assert not sliding
+        turn = rotation_vector_to_matrix(np.array(direction) * angle)
+        pose = pose @ pose_matrix(np.array(point) - turn @ np.array(point), turn)
+    flange = np.vstack([np.array(arm["flange"]).reshape(3, 4), [[0.0, 0.0, 0.0, 1.0]]])
+    assert pose @ flange == pytest.approx(MODEL.forward(result.joints), abs=2e-3)
 
 
 def test_every_sample_of_a_move_has_its_source_line(shown: Page) -> None:

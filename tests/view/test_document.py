@@ -113,7 +113,7 @@ def test_what_the_program_says_is_escaped() -> None:
     run = CellRun(LAYOUT, (RobotRun(LAYOUT.robots[0], None, program, result),), status="<b>", fault=text)
     whole = view_page(view_document(scene_of(run), "a<b>&c"))
     parsed = Page(whole)
-    assert [tag for tag, _ in parsed.tags].count("script") == len([name for name in TEXTS if name.endswith(".js")]) + 1
+    assert [tag for tag, _ in parsed.tags].count("script") == len([name for name in TEXTS if name.endswith(".js")]) + 2
     assert text in json.loads(parsed.json)["files"][0]["pieces"][0][1].replace('""', '"')
     assert text in parsed.words
     assert "<b>&c" not in whole

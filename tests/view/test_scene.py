@@ -7,8 +7,8 @@ import pytest
 
 from rpl.emulator.model import load_robot, robot_names
 from rpl.emulator.rotations import pose_matrix, rotation_vector_to_matrix
+from rpl.report.screws import screws_of
 from rpl.view.scene import Scene, scene_of
-from rpl.view.screws import screws_of
 from tests.view.cells import IN_HAND, cell_run
 
 

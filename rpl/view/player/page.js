@@ -183,7 +183,7 @@
   function play(on) {
     state.playing = on === undefined ? !state.playing : on;
     if (state.playing && state.time >= run.time_s - MOMENT) go(0);
-    get("play").textContent = state.playing ? "⏸" : "▶";
+    get("play").textContent = state.playing ? "❚❚" : "▶";
     state.before = null;
     change();
   }

@@ -46,3 +46,21 @@ def screws_of(model: RobotModel) -> Screws:
         model.unit,
         model.arm.forward(zero),
     )
+
+
+def screws_document(screws: Screws) -> dict[str, object]:
+    """The numbers for a page: lengths to a micrometre; variables (rad, mm) are `matrix @ pendant - offsets` there."""
+    return {
+        "points": np.round(screws.points, 6).tolist(),
+        "directions": np.round(screws.directions, 9).tolist(),
+        "sliding": list(screws.sliding),
+        "matrix": (screws.unit[:, None] * screws.matrix).tolist(),
+        "offsets": (screws.unit * screws.offsets).tolist(),
+        "flange": row_of(screws.flange),
+    }
+
+
+def row_of(pose: FloatArray) -> list[float]:
+    """The upper rows of a pose (4, 4): twelve numbers, lengths to a micrometre."""
+    rows = np.hstack([np.round(pose[:3, :3], 7), np.round(pose[:3, 3:], 3)]) + 0.0
+    return [int(value) if value == int(value) else value for value in rows.ravel().tolist()]
