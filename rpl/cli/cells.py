@@ -94,7 +94,7 @@ def run_among_bodies(cell: Cell, asked: CellAsked, write: Callable[[CellRun, Seq
     """Run it, say what came of it, and let the files be written that are asked for; the exit status."""
     from rpl.workcell.outcome import outcome_of
 
-    loaded = _loaded(cell, asked)
+    loaded = loaded_robots(cell, asked)
     if loaded is None:
         return 1
     if asked.bodies.repeat > 1:
@@ -114,7 +114,7 @@ def run_among_bodies(cell: Cell, asked: CellAsked, write: Callable[[CellRun, Seq
     return 0 if run.status in _FINISHED and (found is None or not found.collisions) else 1
 
 
-def _loaded(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
+def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
     """The robots with their programs; None where one has errors, which are shown."""
     from rpl.workcell.loading import Loaded, robots_of, settled
     from rpl.workcell.running import Driven

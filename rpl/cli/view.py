@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from rpl.cli.cells import BodiesAsked, CellAsked, loaded_robots
 from rpl.cli.files import force_option, refuse_others
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
@@ -15,7 +16,6 @@ from rpl.cli.output import (
     collector,
     from_option,
     json_option,
-    paths_argument,
     print_diagnostics,
     print_json,
     read_paths,
@@ -31,12 +31,12 @@ from rpl.errors import UsageError
 from rpl.view.camera import VIEWS
 
 if TYPE_CHECKING:
-    from rpl.runtime.limits import Limits
+    from rpl.cell import Cell
     from rpl.workcell.record import CellRun
 
 
 @click.command("view")
-@paths_argument
+@click.argument("paths", nargs=-1, metavar="[PATH...]")
 @from_option
 @click.option("--robot", metavar="R", help="Arm: a name or a .toml file.")
 @click.option("--cell", metavar="F.toml", help="Surroundings: inputs over time, answers of the operator, bodies.")
@@ -86,7 +86,9 @@ def command(
         raise UsageError("--at is the time of --picture F.png")
     robots_exist(robot)
     refuse_others([path for path in (save, picture) if path is not None])
-    run = _run(paths, dialect, robot, cell, entry, limits_of(max_time, max_steps, max_events))
+    limits = limits_of(max_time, max_steps, max_events)
+    robots = (robot,) if robot is not None else ()
+    run = _run(CellAsked(paths, dialect, robots, entry, limits, None, False, BodiesAsked(), as_json), cell)
     if run is None:
         return 1
     with waiting("drawing"):
@@ -120,27 +122,42 @@ def _drawn(run: CellRun, save: Path | None, picture: Path | None, at_s: float, s
     return files
 
 
-def _run(
-    paths: Sequence[str], dialect: str | None, robot: str | None, cell: str | None, entry: str | None, limits: Limits
-) -> CellRun | None:
+def _run(asked: CellAsked, cell: str | None) -> CellRun | None:
     """The run; None for a program with errors, which are said."""
-    from rpl.cell.layout import Layout, RobotPlace
     from rpl.proof.prove import load_cell
+
+    surroundings = load_cell(cell)
+    if surroundings is None or not surroundings.layout:
+        if not asked.paths:
+            raise UsageError("no program: name its PATH, or a cell file whose robots have programs with --cell")
+        return _alone(asked, surroundings)
+    from rpl.workcell.running import run_cell
+
+    loaded = loaded_robots(surroundings, asked)
+    if loaded is None:
+        return None
+    with waiting("running"):
+        return run_cell(surroundings, [one.driven for one in loaded], asked.limits)
+
+
+def _alone(asked: CellAsked, surroundings: Cell | None) -> CellRun | None:
+    """A run of one robot without bodies around it."""
+    from rpl.cell.layout import Layout, RobotPlace
     from rpl.simulation import run_program
     from rpl.workcell.record import CellRun, RobotRun
 
-    surroundings, diagnostics = load_cell(cell), collector()
-    read = read_paths(paths, dialect, diagnostics)
+    diagnostics = collector()
+    read = read_paths(asked.paths, asked.dialect, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
     if diagnostics.has_errors:
         say("not started: errors in the program", err=True)
         return None
-    model = robot_named(robot or arm_of(read))
+    model = robot_named(asked.robots[0] if asked.robots else arm_of(read))
     if model is not None and surroundings is not None:
         model = model.among(surroundings.mechanisms, surroundings.path)
     with waiting("running"):
-        result = run_program(read.program, model, surroundings, entry, limits=limits)
-    place = RobotPlace(arm=model.name if model is not None else "", programs=tuple(paths))
+        result = run_program(read.program, model, surroundings, asked.entry, limits=asked.limits)
+    place = RobotPlace(arm=model.name if model is not None else "", programs=tuple(asked.paths))
     fault = f"{result.fault.origin.place}{result.fault.message}" if result.fault is not None else ""
     robots = (RobotRun(place, model, read.program, result),)
     return CellRun(Layout(robots=(place,)), robots, status=result.status, time_s=result.time_s, fault=fault)
@@ -149,6 +166,7 @@ def _run(
 def _title(run: CellRun) -> str:
     """The cell's name, else that of the program."""
     if run.layout.path:
-        return PurePath(run.layout.path).stem
-    names = [PurePath(path).stem for one in run.robots for path in one.place.programs]
+        path = Path(run.layout.path)
+        return path.stem if path.stem != "cell" else path.absolute().parent.name
+    names = [Path(path).stem for one in run.robots for path in one.place.programs]
     return ", ".join(dict.fromkeys(names)) or "run"

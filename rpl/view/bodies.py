@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from rpl.cell.armbodies import arm_bodies
-from rpl.cell.shapes import Box, Shape
-from rpl.emulator.rotations import FloatArray, pose_matrix
+from rpl.cell.shapes import Box, Shape, bounds_at
+from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix
 
 if TYPE_CHECKING:
     from rpl.cell.layout import Gripper
@@ -40,7 +40,7 @@ JAW_MM = (24.0, 6.0, 36.0)
 class Drawn:
     """A body. It is carried by a link of a robot (0: the base, one more than its last joint: the flange), by a part, or
     by nothing. `at` (4, 4) is its place there: of a link where the arm's variables are all zero, in the robot's base.
-    `side` of a jaw: which way it moves along y of the grip, 1 or -1."""
+    `way` (3,) of a jaw: where it goes when the gripper opens; it is drawn where it is `rest_mm` from the middle."""
 
     name: str
     kind: Kind
@@ -51,7 +51,8 @@ class Drawn:
     link: int = -1
     part: int = -1
     gripper: int = -1
-    side: int = 0
+    way: FloatArray | None = None
+    rest_mm: float = 0.0
 
 
 def bodies_of(run: CellRun) -> tuple[Drawn, ...]:
@@ -97,17 +98,30 @@ def _lighter(value: int) -> int:
 
 
 def _gripper(gripper: Gripper, place: int, robot: int, model: RobotModel) -> list[Drawn]:
-    """Its bodies, and the jaws of one that has jaws: thin plates that show how far it is open."""
+    """Its bodies. Those of jaws move: bodies that lie wholly to one side of the grip, as they stand when it is open;
+    without any, thin plates show how far it is open."""
     flange = flange_at_zero(model)
-    found = [
-        Drawn(gripper.name, "tool", body.shape, flange @ body.at, TOOL, robot, model.axes) for body in gripper.bodies
-    ]
-    if gripper.kind == "jaws":
+    across = (flange @ gripper.grip)[:3, 1]
+    found, sides = [], 0
+    for body in gripper.bodies:
+        low, high = bounds_at(body.shape, invert_pose(gripper.grip) @ body.at)[:, 1]
+        if gripper.kind == "jaws" and (side := int(low > 0.0) - int(high < 0.0)):
+            sides += 1
+            name, rest = f"{gripper.name} jaw", gripper.opening[1] / 2.0
+            found.append(_jaw(name, body.shape, flange @ body.at, side * across, rest, place, robot, model))
+        else:
+            found.append(Drawn(gripper.name, "tool", body.shape, flange @ body.at, TOOL, robot, model.axes))
+    if gripper.kind == "jaws" and not sides:
         for side in (1, -1):
             here = flange @ gripper.grip @ pose_matrix(np.array([0.0, side * JAW_MM[1] / 2.0, 0.0]))
-            name = f"{gripper.name} jaw"
-            found.append(Drawn(name, "jaw", Box(JAW_MM), here, TOOL, robot, model.axes, gripper=place, side=side))
+            found.append(_jaw(f"{gripper.name} jaw", Box(JAW_MM), here, side * across, 0.0, place, robot, model))
     return found
+
+
+def _jaw(
+    name: str, shape: Shape, at: FloatArray, way: FloatArray, rest: float, place: int, robot: int, model: RobotModel
+) -> Drawn:
+    return Drawn(name, "jaw", shape, at, TOOL, robot, model.axes, gripper=place, way=way, rest_mm=rest)
 
 
 def flange_at_zero(model: RobotModel) -> FloatArray:

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl.cell.shapes import Shape
-from rpl.emulator.rotations import FloatArray
 from rpl.report.screws import Screws, row_of, screws_document
 from rpl.report.signals import signal_rows
 from rpl.source import Source
 from rpl.view.bodies import Drawn, robot_of
 from rpl.view.packing import packed
-from rpl.view.scene import Scene, first_width
+from rpl.view.scene import Scene, first_width, places_in
 from rpl.view.tracks import Track, short_names, sources_of
 
 if TYPE_CHECKING:
+    from rpl.cell.layout import Part
     from rpl.workcell.record import RobotRun
 
 # What the long arrays are rounded to: far below what one sees, and what the size of the page allows.
@@ -50,7 +50,7 @@ def view_document(scene: Scene, title: str) -> Row:
         ],
         "bodies": [_body(one, shapes, places) for one in scene.bodies],
         "shapes": shapes,
-        "parts": [_part(scene, one.name, one.at) for one in run.layout.parts],
+        "parts": [_part(scene, one) for one in run.layout.parts],
         "grippers": [_gripper(scene, number) for number in range(len(run.layout.grippers))],
         "signals": [row for number, one in enumerate(run.robots) for row in _signals(one, number)],
         "events": _events(scene, names),
@@ -107,8 +107,8 @@ def _body(body: Drawn, shapes: list[Row], places: dict[Shape, int]) -> Row:
         row |= {"robot": body.robot, "link": body.link}
     if body.part >= 0:
         row["part"] = body.part
-    if body.gripper >= 0:
-        row |= {"gripper": body.gripper, "side": body.side}
+    if body.way is not None:
+        row |= {"gripper": body.gripper, "way": np.round(body.way, 7).tolist(), "rest": body.rest_mm}
     return row
 
 
@@ -117,14 +117,12 @@ def _shape(shape: Shape) -> Row:
     return {"v": packed(facets.vertices, VERTEX_MM), "f": packed(facets.faces.astype(np.float64), 1.0)}
 
 
-def _part(scene: Scene, name: str, at: FloatArray) -> list[list[object]]:
+def _part(scene: Scene, part: Part) -> list[list[object]]:
     """Places of a part by time: s, what it does, the robot that holds it or -1, its pose."""
     holders = {one.name: robot_of(scene.run, one.robot) for one in scene.run.layout.grippers}
-    places = scene.run.places_of(name)
-    if not places:
-        return [[0.0, "rests", -1, row_of(at)]]
     return [
-        [round(one.t, 4), one.state, holders[one.on] if one.state == "held" else -1, row_of(one.pose)] for one in places
+        [round(one.t, 4), one.state, holders[one.on] if one.state == "held" else -1, row_of(one.pose)]
+        for one in places_in(scene.run, part)
     ]
 
 

@@ -79,7 +79,9 @@ def picture(scene: Scene, t: float, view: str = "isometric", size: tuple[int, in
 def bounds_of(scene: Scene) -> FloatArray:
     """A box (2, 3) around everything at the start, and the paths of the tools."""
     points = [
-        moved(body.shape.facets.vertices, pose) for body, pose in zip(scene.bodies, scene.poses_at(0.0), strict=True)
+        moved(body.shape.facets.vertices, pose)
+        for body, pose in zip(scene.bodies, scene.poses_at(0.0), strict=True)
+        if pose is not None
     ]
     points += [track.tool for track in scene.tracks if len(track.tool)]
     if not points:
@@ -102,7 +104,7 @@ class _Picture:
         rows = [
             (body.shape, _behind(pose, body.link, camera), RED if body.name in names else body.colour)
             for body, pose in zip(scene.bodies, poses, strict=True)
-            if body.kind != "sensor"
+            if body.kind != "sensor" and pose is not None
         ]
         for one in now:
             if one.point is not None:
@@ -119,11 +121,11 @@ class _Picture:
                 frames += [scene.run.robots[number].place.base, tool]
                 stick = np.stack([flange[:3, 3], tool[:3, 3]])[None]
                 self._lines(stick, np.array([(70.0, 80.0, 92.0)]), 4.0)
-        for pose in frames:
-            ends = np.stack([np.tile(pose[:3, 3], (3, 1)), pose[:3, 3] + pose[:3, :3].T * (0.09 * extent)], axis=1)
+        for frame in frames:
+            ends = np.stack([np.tile(frame[:3, 3], (3, 1)), frame[:3, 3] + frame[:3, :3].T * (0.09 * extent)], axis=1)
             self._lines(ends, np.array(AXES), 3.0, test=False)
         for body, pose in zip(scene.bodies, poses, strict=True):
-            if body.kind == "sensor":
+            if body.kind == "sensor" and pose is not None:
                 self._through(body.shape, pose, np.array(body.colour, float))
 
     def _seen(self, points: FloatArray) -> FloatArray:

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rpl.cell.armbodies import link_poses
+from rpl.cell.record import Placed, pose_between
 from rpl.emulator.rotations import FloatArray
 from rpl.report.screws import Screws, screws_of
 from rpl.view.bodies import Drawn, bodies_of, robot_of
 from rpl.view.tracks import Track, track_of
-from rpl.workcell.record import pose_between
 
 if TYPE_CHECKING:
+    from rpl.cell.layout import Part
     from rpl.workcell.record import CellRun
 
 
@@ -61,39 +62,45 @@ class Scene:
             for track, screws in zip(self.tracks, self.screws, strict=True)
         ]
 
-    def poses_at(self, t: float, joints: Sequence[FloatArray | None] | None = None) -> list[FloatArray]:
-        """The pose (4, 4) in the cell of each of the bodies at a time; `joints` in place of those of the run."""
+    def poses_at(self, t: float, joints: Sequence[FloatArray | None] | None = None) -> list[FloatArray | None]:
+        """The pose (4, 4) in the cell of each of the bodies at a time, None of what is not there; `joints` in place of
+        those of the run."""
         given = self.joints_at(t) if joints is None else joints
         links = [None if q is None else self.links_at(number, q) for number, q in enumerate(given)]
         parts = self._parts_at(t, given)
-        found = []
+        found: list[FloatArray | None] = []
         for body in self.bodies:
             carried = links[body.robot] if body.robot >= 0 else None
             if body.part >= 0:
-                found.append(parts[body.part] @ body.at)
+                found.append(parts[body.part])
             elif carried is None:
                 found.append(body.at)
             else:
                 found.append(carried[body.link] @ self._opened(body, t))
         return found
 
-    def _parts_at(self, t: float, joints: Sequence[FloatArray | None]) -> list[FloatArray]:
-        run, found = self.run, []
+    def _parts_at(self, t: float, joints: Sequence[FloatArray | None]) -> list[FloatArray | None]:
+        run = self.run
+        found: list[FloatArray | None] = []
         holders = {one.name: robot_of(run, one.robot) for one in run.layout.grippers}
         for part in run.layout.parts:
-            places = run.places_of(part.name)
-            pose, holder = pose_between(places, t) if places else (part.at, "")
+            places = places_in(run, part)
+            here = [one for one in places if one.t <= t + 1e-9]
+            if not here or here[-1].state == "gone":  # it has not come yet, or was taken away
+                found.append(None)
+                continue
+            pose, holder = pose_between(places, max(t, here[-1].t))
             if holder and (held := joints[holders[holder]]) is not None:
                 pose = self.flange_at(holders[holder], held) @ pose
             found.append(pose)
         return found
 
     def _opened(self, body: Drawn, t: float) -> FloatArray:
-        """The place of a body on its link; a jaw is off by half of the opening."""
-        if body.kind != "jaw":
+        """The place of a body on its link; a jaw is half of the opening from the middle."""
+        if body.way is None:
             return body.at
         shifted = body.at.copy()
-        shifted[:3, 3] += body.at[:3, 1] * (body.side * self.width_at(body.gripper, t) / 2.0)
+        shifted[:3, 3] += body.way * (self.width_at(body.gripper, t) / 2.0 - body.rest_mm)
         return shifted
 
     def width_at(self, gripper: int, t: float) -> float:
@@ -104,6 +111,12 @@ class Scene:
             if one.gripper == found.name and one.t <= t + 1e-9:
                 width = one.width_mm
         return width
+
+
+def places_in(run: CellRun, part: Part) -> list[Placed]:
+    """The places of a part by time. One that the run says nothing of rests where the cell has it, unless a feeder
+    brings it."""
+    return run.places_of(part.name) or ([Placed(0.0, part.name, "rests", part.at)] if part.again_s is None else [])
 
 
 def first_width(opening: tuple[float, float]) -> float:

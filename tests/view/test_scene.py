@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from rpl.cell.layout import Body
+from rpl.cell.record import Placed
+from rpl.cell.shapes import Box
 from rpl.emulator.model import load_robot, robot_names
 from rpl.emulator.rotations import pose_matrix, rotation_vector_to_matrix
 from rpl.report.screws import screws_of
 from rpl.view.scene import Scene, scene_of
-from tests.view.cells import IN_HAND, cell_run
+from tests.view.cells import IN_HAND, LAYOUT, at, cell_run
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +39,9 @@ def test_screws_bring_the_flange_where_forward_kinematics_has_it(name: str) -> N
 
 def pose_of(scene: Scene, name: str, t: float, which: int = 0) -> np.ndarray:
     poses = scene.poses_at(t)
-    return [pose for body, pose in zip(scene.bodies, poses, strict=True) if body.name == name][which]
+    found = [pose for body, pose in zip(scene.bodies, poses, strict=True) if body.name == name][which]
+    assert found is not None
+    return found
 
 
 def test_a_part_rests_goes_with_the_flange_falls_and_rests(scene: Scene) -> None:
@@ -44,6 +51,30 @@ def test_a_part_rests_goes_with_the_flange_falls_and_rests(scene: Scene) -> None
     assert pose_of(scene, "plug", 1.5) == pytest.approx(scene.flange_at(0, joints) @ IN_HAND)
     assert pose_of(scene, "plug", 2.25)[:3, 3] == pytest.approx([400.0, 0.0, 230.0])
     assert pose_of(scene, "plug", 99.0)[:3, 3] == pytest.approx([400.0, 0.0, 30.0])
+
+
+def test_a_part_that_has_not_come_or_was_taken_away_is_not_there() -> None:
+    placed = (Placed(1.0, "plug", "rests", at(500.0, 0.0, 30.0)), Placed(2.0, "plug", "gone", at(500.0, 0.0, 30.0)))
+    fed = replace(LAYOUT.parts[0], name="fed", again_s=0.5)  # of which the run says nothing: still to be brought
+    run = replace(cell_run(), layout=replace(LAYOUT, parts=(*LAYOUT.parts, fed)), placed=placed)
+    scene = scene_of(run)
+    there = [
+        [pose is not None for body, pose in zip(scene.bodies, scene.poses_at(t), strict=True) if body.kind == "part"]
+        for t in (0.5, 1.5, 2.5)
+    ]
+    assert there == [[False, False], [True, False], [False, False]]
+
+
+def test_bodies_beside_the_grip_are_jaws_that_move() -> None:
+    fingers = tuple(Body(Box((20.0, 10.0, 90.0)), at(0.0, side * 50.0, 105.0)) for side in (1, -1))
+    palm = LAYOUT.grippers[0].bodies
+    gripper = replace(LAYOUT.grippers[0], bodies=(*palm, *fingers), opening=(0.0, 80.0))
+    run = replace(cell_run(), layout=replace(LAYOUT, grippers=(gripper,)))
+    scene = scene_of(run)
+    assert [body.kind for body in scene.bodies if body.name.startswith("jaws")] == ["tool", "jaw", "jaw"]
+    for t, apart in ((0.5, 100.0), (1.5, 50.0)):  # open as they are given; closed by 80 - 30 mm
+        left, right = (pose_of(scene, "jaws jaw", t, which)[:3, 3] for which in (0, 1))
+        assert np.linalg.norm(left - right) == pytest.approx(apart)
 
 
 def test_jaws_stand_as_far_apart_as_the_gripper_is_open(scene: Scene) -> None:

@@ -56,7 +56,7 @@ class Motion {
     const tools = this.arms.map((arm, n) => arm && Pose.times(flanges[n], arm.tool(time)));
     const parts = run.parts.map((places) => this.part(places, time, flanges));
     const bodies = run.bodies.map((body) => {
-      if (body.part !== undefined) return Pose.times(parts[body.part], body.at);
+      if (body.part !== undefined) return parts[body.part];
       if (body.robot === undefined || !links[body.robot]) return body.at;
       return Pose.times(links[body.robot][body.link], this.opened(body, time));
     });
@@ -64,11 +64,14 @@ class Motion {
   }
   opened(body, time) {
     if (body.gripper === undefined) return body.at;
-    const widths = this.run.grippers[body.gripper].widths, way = (body.side * widths[Math.max(lastAt(widths, time + MOMENT, since), 0)][1]) / 2;
-    return Pose.moved(body.at, [1, 5, 9].map((i) => body.at[i] * way));
+    const widths = this.run.grippers[body.gripper].widths, off = widths[Math.max(lastAt(widths, time + MOMENT, since), 0)][1] / 2 - body.rest;
+    return Pose.moved(body.at, body.way.map((value) => value * off));
   }
+  // Null where it has not come yet, or was taken away.
   part(places, time, flanges) {
-    const n = Math.max(lastAt(places, time, since), 0), [t, state, robot, pose] = places[n], after = places[n + 1];
+    const n = lastAt(places, time + MOMENT, since);
+    if (n < 0 || places[n][1] === "gone") return null;
+    const [t, state, robot, pose] = places[n], after = places[n + 1];
     if (state === "held" && flanges[robot]) return Pose.times(flanges[robot], pose);
     if (state !== "falls" || !after || after[0] <= t) return pose;
     const share = (time - t) / (after[0] - t);

@@ -27,6 +27,7 @@
     const take = (p, r) => p.forEach((value, k) => { low[k] = Math.min(low[k], value - r); high[k] = Math.max(high[k], value + r); });
     const places = motion.at(0);
     run.bodies.forEach((body, n) => {
+      if (!places.bodies[n]) return;
       const { vertices } = geometry[body.shape], step = 3 * Math.max(1, Math.floor(vertices.length / 900));
       for (let k = 0; k < vertices.length; k += step) take(Pose.point(places.bodies[n], [vertices[k], vertices[k + 1], vertices[k + 2]]), 0);
     });
@@ -75,7 +76,7 @@
     const now = hits.filter((event) => Math.abs(event.t - state.time) < SEEN_S), names = new Set(now.flatMap((event) => event.names));
     drawing.begin(camera);
     drawing.lines([{ pieces: made3d.grid, width: 1, flat: true }]);
-    const bodies = run.bodies.map((body, n) => ({ shape: shapes[body.shape], place: places.bodies[n], colour: body.colour.map((value) => value / 255), alpha: body.kind === "sensor" ? 0.25 : 1, glow: names.has(body.name) ? 0.75 : 0, behind: body.link % 2 ? 6 : 0 }));
+    const bodies = run.bodies.map((body, n) => ({ shape: shapes[body.shape], place: places.bodies[n], colour: body.colour.map((value) => value / 255), alpha: body.kind === "sensor" ? 0.25 : 1, glow: names.has(body.name) ? 0.75 : 0, behind: body.link % 2 ? 6 : 0 })).filter((one) => one.place);
     places.tools.forEach((tool) => { if (tool) bodies.push({ shape: made3d.dot, place: tool, colour: [0.9, 0, 0.48], alpha: 1 }); });
     hits.forEach((event) => { if (event.point) bodies.push({ shape: now.includes(event) ? made3d.hit : made3d.dot, place: at(event.point), colour: [0.85, 0.1, 0.1], alpha: 1, glow: 1 }); });
     drawing.bodies(bodies);
@@ -115,7 +116,7 @@
     hits.filter((event) => event.point && Math.abs(event.t - state.time) < SEEN_S).slice(0, 4).forEach((event) => wanted.push([event.names.join(" × "), event.point, "hit"]));
     if (shown.names) {
       framesNow(places).forEach(({ name, pose }) => wanted.push([name, Pose.place(pose), ""]));
-      run.bodies.forEach((body, n) => { if (body.kind !== "arm" && body.kind !== "jaw" && wanted.length < 60) wanted.push([body.name, Pose.place(places.bodies[n]), ""]); });
+      run.bodies.forEach((body, n) => { if (places.bodies[n] && body.kind !== "arm" && body.kind !== "jaw" && wanted.length < 60) wanted.push([body.name, Pose.place(places.bodies[n]), ""]); });
     }
     while (labels.length < wanted.length) labels.push(made("span", "", get("labels")));
     labels.forEach((label, n) => {
@@ -133,6 +134,7 @@
     const canvas = get("scene"), way = camera.ray(x, y, canvas.clientWidth, canvas.clientHeight), eye = camera.eye();
     let best = null, nearest = Infinity;
     run.bodies.forEach((body, n) => {
+      if (!last.bodies[n]) return;
       const { vertices, faces, ball } = geometry[body.shape], back = Pose.inverse(last.bodies[n]), o = Pose.point(back, eye), d = Pose.point([...back.slice(0, 3), 0, ...back.slice(4, 7), 0, ...back.slice(8, 11), 0], way);
       const along = -(o[0] * d[0] + o[1] * d[1] + o[2] * d[2]), off = o[0] * o[0] + o[1] * o[1] + o[2] * o[2] - along * along;
       if (off > ball * ball || along + ball < 0) return;
