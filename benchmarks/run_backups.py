@@ -4,8 +4,9 @@
 
 Files are grouped into projects (`projects`), each program of a project that nothing in it calls is run from its
 beginning, in a cell in which nothing happens, on the arm that the backup names. Where it names none of ours the moves
-take no time and nothing is out of reach; a program that asks for places or joints then gets the longest arm of its
-maker. The table says how many. Nothing is edited, and no cell file is written. How a run ended is
+take no time and nothing is out of reach; a program that asks for places or joints then gets an arm of its maker: the
+longest on which it is not refused for reach, joint limits or a singularity, since these say nothing of it. The table
+says how many. Nothing is edited, and no cell file is written. How a run ended is
 one of CLASSES; the first ones are what a program can come to without its cell.
 
 Each program that stops at data to which no file of the project gives a value is run once more with such data assumed
@@ -79,9 +80,12 @@ ASSUMED = " with assumed data"
 _TREES = frozenset(("r1", "krc", "rapid", "steu"))
 # Statements of one run.
 _ASKS_FOR_AN_ARM = re.compile(r"run has no robot|needs? a robot")
+_OF_THE_ARM = re.compile(r"^out of reach|^refused .*the file of robot|joint-limit|singularity|configuration")
 _CALLED = re.compile(r"([A-Za-z_][\w.:]*)(?:\s*\(|\s+\w+(?:[,;\\]|$))")  # `hrd.read(`, `SocketCreate socket1;`
 _MOST_STATEMENTS = 500_000
+_SHOWN = 120  # signs of what stopped a program
 _LEAST_EVENTS = 10
+_LATE_SHARE = 0.95  # what it asks for behind this share of its time it asks for in each round
 _IDLE_SHARE = 0.5  # a run whose last move or output lies this share of its time behind polls
 
 
@@ -209,7 +213,7 @@ def measure(task: tuple[str, list[Path], float, float], whole: bool = False) -> 
         linked = at_any_depth(lambda: link(program))
         digests = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
         project = _Project(name, read, linked, robot, max_time, seconds)
-        outcomes = [project.outcome(one) for one in found.entries]
+        outcomes = [_shortened(project.outcome(one)) for one in found.entries]
         return [replace(one, digest=digests.get(one.program.partition(":")[0], "")) for one in outcomes]
     except RplError as error:
         return [Outcome(name, "", "", "refused", str(error)[:120], "", "", 0.0, 0, 0)]
@@ -243,13 +247,18 @@ class _Project:
         return replace(again, kind=done.kind, what=done.what, place=done.place)
 
     def on_some_arm(self, linked: LinkedProgram, one: Program) -> Outcome:
-        """On the arm that the backup names; where none is named without one, and on the longest of the maker's where
-        the program asks for places or joints: `robot` then says that it is a guess."""
+        """On the arm that the backup names; where none is named without one, and on one of the maker's where the
+        program asks for places or joints: `robot` then says that it is a guess."""
         done = self.run(linked, one, self.robot)
-        guess = _longest(done.language)
-        if self.robot or not guess or not _ASKS_FOR_AN_ARM.search(done.what):
+        if self.robot or not _ASKS_FOR_AN_ARM.search(done.what):
             return done
-        return replace(self.run(linked, one, guess), robot=f"{guess} (a guess)")
+        first: Outcome | None = None
+        for guess in _guesses(done.language):
+            again = replace(self.run(linked, one, guess), robot=f"{guess} (a guess)")
+            if not _OF_THE_ARM.search(f"{again.kind} {again.what}"):
+                return again
+            first = first or again
+        return done if first is None else replace(done, kind="needs an arm", what=f"{done.what}; {first.what}")
 
     def run(self, linked: LinkedProgram, one: Program, robot: str) -> Outcome:
         limits = replace(DEFAULTS, time_s=self.max_time, statements=_MOST_STATEMENTS)
@@ -274,7 +283,7 @@ class _Project:
         except _TooSlow:
             return replace(said, kind="too slow", what="before it began")
         except RplError as error:
-            return replace(said, kind="refused", what=str(error)[:120])
+            return replace(said, kind="refused", what=str(error))
         except Exception:  # noqa: BLE001 (a traceback of ours is what this counts)
             return replace(said, kind="crash", what=_where_ours())
         finally:
@@ -290,11 +299,15 @@ class _Project:
 
 
 @cache
-def _longest(language: str) -> str:
-    """The six-axis arm of the language's maker that reaches farthest."""
-    title = registry.dialect(language).title.lower().split() if language in registry.dialect_names() else []
+def _guesses(language: str) -> tuple[str, ...]:
+    """The six-axis arms of the language's maker, the one that reaches farthest first."""
+    title = registry.dialect(language).title.lower() if language in registry.dialect_names() else ""
     arms = [one for one in robot_summaries() if one.maker.lower() in title and one.axes == 6 and one.reach_mm]
-    return max(arms, key=lambda one: (one.reach_mm or 0.0, one.name)).name if arms else ""
+    return tuple(one.name for one in sorted(arms, key=lambda one: (-(one.reach_mm or 0.0), one.name)))
+
+
+def _shortened(one: Outcome) -> Outcome:
+    return replace(one, what=one.what[:_SHOWN], assumed_what=one.assumed_what[:_SHOWN])
 
 
 def _end(number: int, frame: FrameType | None) -> None:
@@ -336,7 +349,7 @@ def classified(result: RunResult, outside: Outside) -> tuple[str, str]:
         return _of_deadlock(result, outside)
     if result.status == "limit" or fault.code == "no-time":
         return _of_limit(result, outside)
-    text = fault.message[:120]
+    text = fault.message
     named = text.partition("routine ")[2].partition(" ")[0]
     known = {
         "unknown-routine": ("unknown routine", named),
@@ -380,10 +393,15 @@ def _of_limit(result: RunResult, outside: Outside | None = None) -> tuple[str, s
         if asked and done <= result.time_s * _IDLE_SHARE:
             return "waits for input", asked[0]
     for one in result.awaited:
-        if outside is not None and done <= result.time_s * _IDLE_SHARE and (names := outside.names(one.origin)):
-            return "waits for what is outside", ", ".join(names)
+        if outside is not None and done <= result.time_s * _IDLE_SHARE:
+            if inputs := outside.inputs(one.origin):
+                return "waits for input", ", ".join(inputs)
+            if names := outside.names(one.origin):
+                return "waits for what is outside", ", ".join(names)
     if _comes_round(result):
-        return "loops", ""
+        timed = any(one.timed_out and one.end >= result.time_s * _IDLE_SHARE for one in result.waited)
+        asked = [name for one in result.awaited for name, moment in one.inputs if moment >= result.time_s * _LATE_SHARE]
+        return ("waits for input", ", ".join(asked)) if timed and asked else ("loops", "")
     text = result.fault.message[:120] if result.fault is not None else ""
     return "limit", text
 

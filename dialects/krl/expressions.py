@@ -45,10 +45,12 @@ _TRUE, _FALSE = ir.BoolLiteral(True), ir.BoolLiteral(False)
 
 @dataclass(slots=True)
 class Facts:
-    """What a quick look over the whole project found before reading: its own routines, and declared types by name."""
+    """What a quick look over the whole project found before reading: its own routines, declared types by name, and
+    machine data (names of tables.MEASURED) that its lists declare."""
 
     routines: frozenset[str] = frozenset()
     types: dict[str, str] = field(default_factory=dict)
+    given: frozenset[str] = frozenset()
     reported: set[int] = field(default_factory=set)
 
 
@@ -257,7 +259,7 @@ class Expressions:
             neutral, unit = tables.SCALARS[name]
             variable = neutral
             return self.suffixed(_measured(lambda pieces, origin: ir.System(variable, origin=origin), unit), suffixes)
-        if name in tables.MEASURED:
+        if name in tables.MEASURED and name not in self.facts.given:
             return self.measured(text, suffixes)
         return self.suffixed(lambda pieces, origin: ir.Name(text, origin=origin), suffixes)
 

@@ -53,6 +53,9 @@ _TYPED = re.compile(
     r"(INT|REAL|BOOL|CHAR|AXIS|E[36]AXIS|FRAME|POS|E[36]POS)[ \t]+([A-Za-z_$][^=;{\r\n]*)",
     re.IGNORECASE | re.MULTILINE,
 )
+_MACHINE_DATA = re.compile(
+    r"^[ \t]*(?:DECL[ \t]+)?(?:GLOBAL[ \t]+)?[A-Z_]\w*[ \t]+(\$\w+)", re.IGNORECASE | re.MULTILINE
+)
 _DECLARED_NAME = re.compile(r"([A-Za-z_$][\w$]*)[ \t]*(?:\[[^\]]*\])?[ \t]*(?:,|$)")
 _IMPORT = re.compile(
     r"IMPORT\s+[\w$]+\s+([\w$]+)\s*(?:\[[^\]]*\])?\s+IS\s+(?:/\w+)*/([\w$]+)\s*\.\.\s*([\w$]+)", re.IGNORECASE
@@ -67,15 +70,18 @@ def _parser() -> ShapeParser:
 
 
 def facts_of(texts: Iterable[str]) -> Facts:
-    """A quick look over the project: its routines' names and the simple types of its names."""
+    """A quick look over the project: its routines' names, the simple types of its names, and the machine data that it
+    declares (`DECL CP $VEL_MA={CP 3.0,ORI1 400.0,ORI2 400.0}` of $machine.dat)."""
     routines: set[str] = set()
     types: dict[str, str] = {}
+    given: set[str] = set()
     for text in texts:
+        given.update(name.lower() for name in _MACHINE_DATA.findall(text))
         routines.update(name.lower() for name in _ROUTINE.findall(text))
         for kind, names in _TYPED.findall(text):
             for name in _DECLARED_NAME.findall(names):
                 types.setdefault(name.lower(), kind.lower())
-    return Facts(frozenset(routines), types)
+    return Facts(frozenset(routines), types, frozenset(given & tables.MEASURED.keys()))
 
 
 @dataclass(slots=True)

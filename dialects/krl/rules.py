@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rpl.ir.analog import AnalogPorts, AnalogRange
-from rpl.ir.rules import AdvanceRules, InputRules, LoadVariables, Range, Rules, TriggerRules
+from rpl.ir.rules import AdvanceRules, InputRules, LoadVariables, PassingRules, Range, Rules, TriggerRules
 
 from . import tables
 
@@ -72,6 +72,10 @@ RULES = Rules(
     char_numbers=True,
     components=COMPONENTS,
     undefined=True,
+    # KUKA's own MsgLib finds out so whether a variable was initialised; which numbers errors have is not published.
+    passing=PassingRules("on_error_proceed", "err_clear", "$ERR", "number"),
+    unset_length=True,  # MsgLib of KSS 8 asks so for the length of a text that its caller has left out
+    by_file=True,  # expert programming manual: the first DEF is the program, those behind it are its subprograms
     call_depth=20,  # M: about 20 levels, interrupts included
     # The state after power-on, before BAS(#INITMOV,0) has run: no look-ahead, tool and base not valid (identity here).
     system_defaults={

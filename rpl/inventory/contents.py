@@ -16,7 +16,7 @@ from rpl import ir
 from rpl.diagnostics import Diagnostics
 from rpl.ir.walk import bodies, walk
 from rpl.passes.legalise.facts.values.heldtexts import named_by_texts
-from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.scope import ProgramScope, Scope, rules_of
 from rpl.passes.typing import UNKNOWN_NAME, UNKNOWN_ROUTINE
 from rpl.project import ReadProgram
 from rpl.source import Origin
@@ -30,6 +30,7 @@ _KINDS = {
 }
 _SWITCHING = (ir.Pulse, ir.SetAfter)
 _MAIN = "main"
+MOTION = "motion"
 _LONGEST = 100  # of a statement that is shown
 _STATEMENTS = tuple(one for one in get_args(ir.Statement) if one not in (ir.Nothing, ir.Label))
 
@@ -37,7 +38,9 @@ _STATEMENTS = tuple(one for one in get_args(ir.Statement) if one not in (ir.Noth
 @dataclass(frozen=True, slots=True)
 class Program:
     """A routine; one whose name others have too is named behind its task and module. kind: procedure, function, trap.
-    `entry`: people can start it, and nothing here calls it. `calls` and `called_by`: routines of the project;
+    `entry`: people can start it, and nothing here calls it: it takes no argument that is needed, gives no value, is no
+    task that runs by itself behind the program, and in languages that select a program by its file (`Rules.by_file`) it
+    is the first routine of its file. `calls` and `called_by`: routines of the project;
     `by_text`: a text that a program holds names it, so that it may be called too. `missing`: what it calls that the
     project has not."""
 
@@ -265,12 +268,16 @@ class _Looking:
                 for found in self.calls[id(routine)].values():
                     if found is not routine:
                         callers[id(found)][self.called_as[id(routine)]] = None
-        begun = {task.entry.lower() for task in self.program.tasks}
+        begun = {task.entry.lower() for task in self.program.tasks if task.kind == MOTION}
+        behind = {task.entry.lower() for task in self.program.tasks if task.kind != MOTION}
+        heads = _first_of_files(self.program)
         texts = named_by_texts(self.program) if self.by_text else set()
         for module in self.program.modules:
             for routine in module.routines:
                 statements, moves = self.counts[id(routine)]
                 starts = routine.kind == "procedure" and all(one.optional for one in routine.parameters)
+                starts &= routine.name.lower() not in behind
+                starts &= id(routine) in heads or not rules_of(module.dialect).by_file
                 by_text = routine.name.lower() in texts
                 alone = not (id(routine) in callers or by_text) or routine.name.lower() in {_MAIN, *begun}
                 yield Program(
@@ -319,6 +326,17 @@ class _Looking:
                 if kind is not None:
                     kind = self.selected.get(id(one), kind)
                     yield Datum(one.name, kind, place_of(one.origin), tuple(self.used.get(id(one), ())))
+
+
+def _first_of_files(program: ir.Program) -> set[int]:
+    """The routines, by identity, that stand first in their files."""
+    found: dict[str, ir.Routine] = {}
+    for module in program.modules:
+        for routine in module.routines:
+            first = found.setdefault(routine.origin.file, routine)
+            if routine.origin.start < first.origin.start:
+                found[routine.origin.file] = routine
+    return {id(one) for one in found.values()}
 
 
 def _declared_signal(target: ir.Expression, scope: Scope) -> ir.Signal | None:

@@ -33,32 +33,36 @@ class Outside:
             for node in walk(*bodies(routine)):
                 self._node(node, scope)
 
+    def inputs(self, origin: Origin) -> tuple[str, ...]:
+        """The inputs that the condition there looks at."""
+        condition, scope = self.waits.get((origin.file, origin.start), (ir.BoolLiteral(True), None))
+        signals = (node for node in walk(condition) if isinstance(node, ir.Signal) and node.kind.endswith("_in"))
+        return tuple(dict.fromkeys(_spelled(one, scope) for one in signals if scope is not None))
+
     def names(self, origin: Origin) -> tuple[str, ...]:
-        """Signals and data, as the language of the statement spells them; none where something in the project may
-        change one of those that the condition there looks at."""
+        """Those of the signals and data that the condition there looks at which nothing in the project changes, as the
+        language of the statement spells them."""
         found = self.waits.get((origin.file, origin.start))
         if found is None:
             return ()
         condition, scope = found
-        names: dict[str, None] = {}
-        for node in walk(condition):
-            match node:
-                case ir.Signal():
-                    if self._is_switched(node):
-                        return ()
-                    names[_spelled(node, scope)] = None
-                case ir.Name(id=name):
-                    symbol = scope.value(name)
-                    declared = symbol.declaration if symbol is not None else None
-                    if isinstance(declared, ir.SignalDeclaration):
-                        if self._is_switched(declared.signal):
-                            return ()
-                    elif (symbol is not None and symbol.routine is not None) or id(declared) in self.changed:
-                        return ()
-                    names[name] = None
-                case ir.Call() | ir.Builtin() | ir.VendorValue() | ir.System():
-                    return ()
-        return tuple(names)
+        return tuple(dict.fromkeys(name for node in walk(condition) if (name := self._name(node, scope))))
+
+    def _name(self, node: object, scope: Scope) -> str:
+        """Of a signal or datum that only something outside changes; empty for any other."""
+        match node:
+            case ir.Signal():
+                return "" if self._is_switched(node) else _spelled(node, scope)
+            case ir.Name(id=name):
+                symbol = scope.value(name)
+                if symbol is None or symbol.routine is not None:
+                    return ""
+                declared = symbol.declaration
+                if isinstance(declared, ir.SignalDeclaration):
+                    return "" if self._is_switched(declared.signal) else name
+                constant = isinstance(declared, ir.Variable) and declared.storage == "constant"
+                return "" if constant or id(declared) in self.changed else name
+        return ""
 
     def _is_switched(self, signal: ir.Signal) -> bool:
         return not signal.kind.endswith("_in") and (signal in self.switched or signal.kind in self.computed)

@@ -182,6 +182,18 @@ class InputRules:
 
 
 @dataclass(frozen=True, slots=True)
+class PassingRules:
+    """A statement (how its text begins, in small letters) behind which an error of the next one does not stop the
+    program: it goes on behind that one, and the error's number stands in a component of a variable, until another
+    statement clears it."""
+
+    statement: str
+    clearing: str
+    variable: str
+    component: str
+
+
+@dataclass(frozen=True, slots=True)
 class Rules:
     """What differs between languages that share the IR.
 
@@ -189,6 +201,8 @@ class Rules:
     or empty when the language refuses it. char_numbers: CHAR compares with numbers by code. text_plus: `+` joins texts.
     components: per built-in type class name, the language's component names (lower case) -> neutral names; a nested
     RAPID `robax.rax_1` maps step by step. undefined: reading a variable without a value is a fault (else zero values).
+    unset_length: the length of a text without a value is 0 (else asking for it is such a fault).
+    by_file: people start a program by its file: only its first routine, the others are its subprograms.
     whole_targets: a move to a position of which a component has no value is a fault (FANUC), else the component stays.
     implicit_pose: an undeclared name is a pose. call_depth: nested calls the controller allows.
     system_defaults: modal system variables at the start of a run, in base units. percent_limits: least and most that
@@ -213,7 +227,7 @@ class Rules:
     functions: neutral function -> how the language spells it
     and its parameters' types in the language's words (`word.part`: the reader takes that component of the argument).
     triggers: where actions on the path happen. pulse_step_s: a pulse's length is rounded to this.
-    inputs: what the controller makes of motion values that are no good.
+    inputs: what the controller makes of motion values that are no good. passing: how a program passes over an error.
     real_bits: of the mantissa of real numbers; 24: four-byte floats, to which each operation rounds. whole_bits: of
     whole numbers, sign included; a larger one is a fault where the language has a type of whole numbers, else it is
     rounded like a real number.
@@ -234,6 +248,8 @@ class Rules:
     text_plus: bool = False
     components: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     undefined: bool = False
+    by_file: bool = False
+    unset_length: bool = False
     whole_targets: bool = False
     wait_poll_s: float = 0.0
     call_depth: int = 100
@@ -261,6 +277,7 @@ class Rules:
     triggers: TriggerRules = TriggerRules()
     pulse_step_s: float = 0.0
     inputs: InputRules = InputRules()
+    passing: PassingRules | None = None
     real_bits: int = 53
     whole_bits: int = 64
     kept_at: Mapping[str, str] = field(default_factory=dict)

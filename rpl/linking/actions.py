@@ -42,7 +42,7 @@ def action(statement: ir.Statement, linker: Linker) -> Make | None:
         case ir.Clock():
             return _clock(statement, linker)
         case ir.Vendor(text=text, effect=effect):
-            return _vendor(text, effect)
+            return _passing(text, linker) or _vendor(text, effect)
         case ir.Opaque(text=text):
             return _failing("opaque", f"this statement could not be read: {text.strip()[:80]}")
         case ir.TaskControl():
@@ -288,6 +288,27 @@ def _clock(statement: ir.Clock, linker: Linker) -> Make:
 
 
 # ---- what only one controller has
+
+
+def _passing(text: str, linker: Linker) -> Make | None:
+    """A statement that says whether an error of the next one is passed over; None for any other."""
+    rules = linker.compiler.scope.rules.passing
+    if rules is None or not text.strip().lower().startswith((rules.statement, rules.clearing)):
+        return None
+    passes = text.strip().lower().startswith(rules.statement)
+
+    def make(here: int, next: int) -> Instruction:
+        def say(f: Values) -> int:
+            task = f[0]
+            if passes:
+                task.passes = (task.frame, next)
+            else:
+                task.tell_error(rules, 0)
+            return next
+
+        return say
+
+    return make
 
 
 def _vendor(text: str, effect: str) -> Make:

@@ -334,6 +334,9 @@ class Compiler:
             return self.by_place(name, expression.arguments)
         if name in ir.PROCEDURES:
             return self.procedure(self, name, expression.arguments)
+        if name == "text_length" and self.scope.rules.unset_length:
+            text = self.raw(expression.arguments[0])
+            return lambda f: len(text(f) or "")
         arguments = [self.value(argument) for argument in expression.arguments]
         pure = neutral.PURE.get(name)
         if pure is not None:

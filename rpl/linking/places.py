@@ -10,6 +10,7 @@ from rpl.errors import InternalError
 from rpl.ir.rules import Range, refusal
 from rpl.ir.walk import walk
 from rpl.linking.expressions import HIDDEN, Compiler, Place, unknown
+from rpl.linking.types import no_bound
 from rpl.runtime.code import (
     AnyRef,
     CallRef,
@@ -182,9 +183,13 @@ def _write_component(compiler: Compiler, target: ir.Field, origin: Origin) -> Wr
     base, name = compiler.raw(target.base), compiler.field_name(target)
     write_base = writer(compiler, target.base, origin) if _is_place(target.base) else _refused("this cannot be written")
     wakes = watches(compiler, target.base)
+    made = _made(compiler, target.base)
 
     def write(f: Values, value: Value) -> None:
         whole_value = base(f)
+        if whole_value is None and made is not None:  # an argument that was not given: of its type, without values
+            whole_value = made()
+            write_base(f, whole_value)
         if whole_value.__class__ is Record:
             if name not in whole_value.parts:
                 raise ProgramError("wrong_kind", f"there is no component {name}")
@@ -197,6 +202,15 @@ def _write_component(compiler: Compiler, target: ir.Field, origin: Origin) -> Wr
             write_base(f, whole_value.replaced(name, value))
 
     return write
+
+
+def _made(compiler: Compiler, base: ir.Expression) -> Callable[[], Value] | None:
+    """What makes a structure of the place's type without values; None for a type that has no components."""
+    type = compiler.types.of(base) if compiler.unset else None
+    record = isinstance(type, ir.NamedType) and isinstance(compiler.scope.type(type.name), ir.RecordDeclaration)
+    if type is None or not (record or type.__class__ in ir.COMPONENTS):
+        return None
+    return lambda: compiler.types.initial(type, no_bound)
 
 
 def _is_place(expression: ir.Expression) -> bool:

@@ -220,11 +220,11 @@ class Types:
         made = {}
         for field, type in declaration.fields:
             key = fold(field)
-            made[key] = given[key] if key in given else self.initial(type, _no_bound)
+            made[key] = given[key] if key in given else self.initial(type, no_bound)
         return Record(fold(name), made)
 
 
-def _no_bound(expression: ir.Expression) -> Value:
+def no_bound(expression: ir.Expression) -> Value:
     """Bounds of arrays inside records are constants."""
     match expression:
         case ir.IntLiteral(value=value) | ir.RealLiteral(value=value):
@@ -232,4 +232,4 @@ def _no_bound(expression: ir.Expression) -> Value:
     raise ProgramError("wrong_kind", "the bound of an array in a record must be a number")
 
 
-__all__ = ["RECORD_TYPES", "Types"]
+__all__ = ["RECORD_TYPES", "Types", "no_bound"]

@@ -13,6 +13,14 @@ from rpl.ir.errornames import SPELLINGS
 FATAL = frozenset(
     ("no_value", "wrong_kind", "no_time", "opaque", "vendor", "too_deep", "internal_limit", "motion", "bad_value")
 )
+# What says that something is not there, or that the run itself has come to its end: no statement passes that over.
+BEYOND = frozenset(
+    (
+        *("unknown_routine", "unknown_function", "unknown_data", "unknown_trap", "unknown_interrupt", "unknown_task"),
+        *("opaque", "vendor", "no_time", "too_deep", "internal_limit", "motion", "bad_call"),
+    )
+)
+UNNUMBERED = 1  # of an error whose number in the language is not known
 
 
 class ProgramError(Exception):

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 from rpl.depth import has_more_depth
 from rpl.runtime.awaited import polled
 from rpl.runtime.code import ATTEND, BLOCKED, SWITCHED, Code, Frame, Handling, Read, Values, Write
-from rpl.runtime.faults import FATAL, ProgramError, name_of, number_of
+from rpl.runtime.faults import BEYOND, FATAL, UNNUMBERED, ProgramError, name_of, number_of
 from rpl.runtime.interrupts import Interrupt, Interrupts
 from rpl.runtime.moves.velocities import let_rest
-from rpl.runtime.values import SignalRef, Value
+from rpl.runtime.values import Record, SignalRef, Value
 from rpl.runtime.waits import CYCLE_S, TIMED_OUT, Wait, Waited, poll_step
 from rpl.source import NOWHERE, Origin
 
 if TYPE_CHECKING:
-    from rpl.ir.rules import Rules
+    from rpl.ir.rules import PassingRules, Rules
     from rpl.runtime.moves.orders import Order, TriggerOrder
     from rpl.runtime.ports import Machine, Robot
     from rpl.runtime.signals import Key
@@ -72,6 +72,7 @@ class Task:
         self.gathered: dict[int, Order] = {}  # of a spline block, by the places of its moves in the code
         self.error_routine: Code | None = None
         self.last_error: tuple[ProgramError, Origin] | None = None
+        self.passes: tuple[Frame, int] | None = None  # an error of the statement that begins there is passed over
         self.frame = self._start()
 
     # ---- frames
@@ -401,7 +402,26 @@ class Task:
         self.state = READY
         self.wait = None
         self.machine.error_came(self)
+        passed, self.passes = self.passes, None
+        start, following = frame.code.statements[counter]
+        if passed == (frame, start) and error.name not in BEYOND:
+            rules = frame.code.rules.passing
+            if rules is not None:
+                self.tell_error(rules, number_of(error, frame.code.rules.errors) or UNNUMBERED)
+            frame.counter = following
+            return
         self._unwind(error, frame.code.origin(counter), frame.code.rules)
+
+    def tell_error(self, rules: PassingRules, number: float) -> None:
+        """The variable of the last error shows this number."""
+        slot = self.machine.linked.variable_slot(rules.variable)
+        if slot is None:
+            return
+        if slot >= len(self.machine.globals):
+            self.machine.linked.initialise(self.machine.globals, self.machine)
+        record = self.machine.globals[slot]
+        if isinstance(record, Record):
+            record.parts[rules.component] = number
 
     def _unwind(self, error: ProgramError, origin: Origin, rules: Rules) -> None:
         number = number_of(error, rules.errors)
@@ -535,6 +555,8 @@ def _as_program_error(error: Exception) -> ProgramError:
         case ValueError():
             told = "" if str(error).startswith("math ") else f": {error}"
             return ProgramError("negative_argument", f"a function is not defined for this argument{told}")
+        case AttributeError() if "'NoneType' object has no attribute" in str(error):
+            return ProgramError("no_value", "a structure without a value is asked for a part of it")
         case KeyError():
             return ProgramError("wrong_kind", f"there is no component {error}")
         case MemoryError():

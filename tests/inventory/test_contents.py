@@ -29,11 +29,11 @@ def test_programs_and_calls() -> None:
     assert programs["cell"].calls == ("Pick",) and programs["cell"].missing == ("Lost",)
     assert programs["cell"].moves == 1 and programs["cell"].place == "cell.src:1"
     assert programs["Pick"].called_by == ("cell",)  # a routine that calls itself is called by nobody for that
-    assert [name for name, one in programs.items() if one.entry] == ["cell", "Other"]
+    assert [name for name, one in programs.items() if one.entry] == ["cell"]  # Other is a subprogram of its file
 
 
 def test_what_nobody_calls_and_cannot_be_started_is_unused() -> None:
-    assert [one.name for one in found(KRL, "krl").unused] == ["Spare"]
+    assert [one.name for one in found(KRL, "krl").unused] == ["Spare", "Other"]
 
 
 def test_what_is_missing_has_its_places() -> None:
@@ -75,8 +75,8 @@ def test_tasks_traps_and_functions() -> None:
 
 def test_the_same_for_machines() -> None:
     document = found(KRL, "krl").as_json()
-    assert document["languages"] == ["krl"] and document["entries"] == ["cell", "Other"]
-    assert document["unused"] == ["Spare"]
+    assert document["languages"] == ["krl"] and document["entries"] == ["cell"]
+    assert document["unused"] == ["Spare", "Other"]
     assert [(one["file"], one["dialect"], one["opaque"]) for one in document["files"]] == [
         ("cell.dat", "krl", 0),
         ("cell.src", "krl", 0),
@@ -102,3 +102,15 @@ def test_routines_of_one_name_stay_apart() -> None:
         "main": ("a.near",), "a.near": (), "second": ("b.near",), "b.near": (),
     }  # fmt: skip
     assert [one.writers for one in contents_found.signals] == [("a.near",), ("b.near",)]
+
+
+def test_what_people_start() -> None:
+    """Not what takes arguments, not a subprogram of a file, and not a task that runs by itself."""
+    files = {
+        "pick.src": "DEF pick()\nPTP {A1 0}\nEND\nGLOBAL DEF helper()\nPTP {A1 0}\nEND\n",
+        "grip.src": "DEF grip(n :IN)\nINT n\n$OUT[n]=TRUE\nEND\n",
+        "sps.sub": "DEF SPS()\nLOOP\n$OUT[9]=$IN[9]\nENDLOOP\nEND\n",
+    }
+    assert [one.name for one in found(files, "krl").entries] == ["pick"]
+    module = 'MODULE m\nPROC one()\nTPWrite "1";\nENDPROC\nPROC two()\nTPWrite "2";\nENDPROC\nENDMODULE\n'
+    assert [one.name for one in found({"m.mod": module}, "rapid").entries] == ["one", "two"]  # PP to Routine

@@ -31,6 +31,7 @@ def test_projects_of_a_folder(tmp_path: Path) -> None:
         ("WHILE NOT $IN[4]\nWAIT SEC 0.1\nENDWHILE", "waits for input", "$IN[4]"),
         ("away(1)", "unknown routine", "away"),
         ("LOOP\n$OUT[1]=TRUE\nWAIT SEC 1\n$OUT[1]=FALSE\nWAIT SEC 1\nENDLOOP", "loops", ""),
+        ("LOOP\nWAIT SEC 0.5\nIF $IN[5] THEN\nEXIT\nENDIF\nENDLOOP", "waits for input", "$IN[5]"),
         ("n=m", "unknown data", "m has no value yet"),
         ("n=lost", "unknown data", "lost"),
         ("WAIT FOR $OUT[3]", "waits for what is outside", "$OUT[3]"),
@@ -85,3 +86,13 @@ def test_copies_are_counted_once(tmp_path: Path) -> None:
         (tmp_path / name / "main.src").write_text(f"DEF main()\n$OUT[{1 + (name == 'c')}]=TRUE\nEND\n")
     found = [one for task in run_backups.projects(tmp_path) for one in run_backups.measure((*task, 60.0, 60.0))]
     assert len(found) == 3 and len(run_backups.without_copies(found)) == 2
+
+
+def test_a_wait_with_a_time_out_that_comes_round_waits_for_its_input(tmp_path: Path) -> None:
+    path = tmp_path / "MAIN.LS"
+    path.write_text(
+        "/PROG  MAIN\n/ATTR\n/MN\n   1:  LBL[1] ;\n   2:  $WAITTMOUT=200 ;\n   3:  WAIT DI[7]=ON TIMEOUT,LBL[2] ;\n"
+        "   4:  END ;\n   5:  LBL[2] ;\n   6:  DO[3]=PULSE,1.0sec ;\n   7:  JMP LBL[1] ;\n/POS\n/END\n"
+    )
+    (outcome,) = run_backups.measure((tmp_path.name, [path], 600.0, 60.0))
+    assert (outcome.kind, outcome.what) == ("waits for input", "DI[7]")

@@ -37,7 +37,7 @@ def told(result: RunResult) -> list[tuple[str, str, int]]:
         ("DECL INT count", "$OUT[1]=count==0", "count", "0"),
         ("DECL REAL depth", "$OUT[1]=depth==0", "depth", "0"),
         ("DECL BOOL ready", "$OUT[1]=NOT ready", "ready", "FALSE"),
-        ("DECL CHAR text[8]", "$OUT[1]=STRLEN(text[])==0", "text", "an empty text"),
+        ("DECL CHAR text[8]", '$OUT[1]=STRCOMP(text[],"",#CASE_SENS)', "text", "an empty text"),
         ("DECL INT list[3]", "$OUT[1]=list[2]==0", "list[2]", "0"),
         ("DECL FRAME shift", "$OUT[1]=shift.X==0", "shift.x", "0"),
         ("", "IF far THEN\nENDIF\n$OUT[1]=NOT far", "far", "FALSE"),
