@@ -10,9 +10,10 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Sequence
 
-from rpl.controllers.fanuc.motion import carried_out, listing_of, target_text
-from rpl.controllers.fanuc.panel import Values
+from rpl.controllers.fanuc.listing import listing_of
+from rpl.controllers.fanuc.motion import carried_out, target_text
 from rpl.controllers.fanuc.snpx import position_of
+from rpl.controllers.fanuc.values import Values
 from rpl.controllers.virtual.store import NotDoneError
 from rpl.controllers.virtual.transcript import Kind
 
@@ -59,7 +60,7 @@ class Driver:
             await self._moved(word, fields)
             return "success"
         if word == "mappdkcall":
-            await carried_out(self.cabinet, PROGRAM, listing_of(f"CALL {fields[0]}", "", PROGRAM))
+            await carried_out(self.cabinet, PROGRAM, listing_of(f"CALL {fields[0]}", "", PROGRAM), calls=True)
             return "success"
         if word in ("curpos", "curjpos"):
             here = position_of(self.values.place())

@@ -92,3 +92,9 @@ def _position(line: str) -> list[str]:
         for part in re.split(r",", named)
         if part.strip()
     ]
+
+
+def listing_of(body: str, places: str, program: str) -> str:
+    """A program of this instruction (the first line of several) and these positions."""
+    head = f"/PROG  {program}\n/ATTR\nPROTECT = READ_WRITE;\nDEFAULT_GROUP = 1,*,*,*,*;\n"
+    return f"{head}/MN\n   1:  {body} ;\n/POS\n{places}/END\n"

@@ -13,8 +13,9 @@ import time
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
-from rpl.controllers.fanuc.panel import Values
+from rpl.controllers.fanuc.listing import listing_of
 from rpl.controllers.fanuc.snpx import position_of
+from rpl.controllers.fanuc.values import Values
 from rpl.controllers.virtual.cabinet import Cabinet
 from rpl.controllers.virtual.endpoints import Endpoints
 from rpl.controllers.virtual.store import NotDoneError
@@ -175,14 +176,18 @@ class Remote:
         elif name == "FRC_SetUTool":
             self.tool = int(packet["ToolNumber"])
         elif name != "FRC_SetPayLoad":
-            await carried_out(self.cabinet, PROGRAM, _lines(name, packet, self.frame, self.tool))
+            listing = _lines(name, packet, self.frame, self.tool)
+            await carried_out(self.cabinet, PROGRAM, listing, calls=name == "FRC_Call")
         return {}
 
 
-async def carried_out(cabinet: Cabinet, program: str, listing: str) -> None:
-    """Run a program of one instruction, from where the robot stands, to its end. Raises NotDoneError."""
-    cabinet.store.put([(f"{program}.LS", listing.encode("latin-1"))])
-    if cabinet.select([f"{program}.LS"]):
+async def carried_out(cabinet: Cabinet, program: str, listing: str, calls: bool = False) -> None:
+    """Run a program of one instruction, from where the robot stands, to its end. calls: one that calls others, which
+    are read with it. Raises NotDoneError."""
+    name = f"{program}.LS"
+    cabinet.store.put([(name, listing.encode("latin-1"))])
+    others = [one for one in cabinet.store.names() if one.lower().endswith((".ls", ".va")) and ".." not in one]
+    if cabinet.select([name, *(one for one in others if one != name)] if calls else [name], program):
         raise NotDoneError("syntax", listing)
     before = len(cabinet.messages)
     cabinet.start()
@@ -205,17 +210,19 @@ def _tag() -> int:
 def _lines(name: str, packet: Packet, frame: int, tool: int) -> str:
     """The listing of an instruction. Raises KeyError, ValueError."""
     if name == "FRC_WaitTime":
-        return listing_of(f"WAIT {float(packet['Time']):.2f}(sec)", "")
+        return listing_of(f"WAIT {float(packet['Time']):.2f}(sec)", "", PROGRAM)
     if name == "FRC_WaitDIN":
         value = "ON" if packet["PortValue"] in ("ON", 1) else "OFF"
-        return listing_of(f"WAIT DI[{int(packet['PortNumber'])}]={value}", "")
+        return listing_of(f"WAIT DI[{int(packet['PortNumber'])}]={value}", "", PROGRAM)
     if name == "FRC_Call":
-        return listing_of(f"CALL {packet['ProgramName']}", "")
+        return listing_of(f"CALL {packet['ProgramName']}", "", PROGRAM)
     letter = {"FRC_JointMotion": "J", "FRC_LinearMotion": "L"}[name.removesuffix("JRep")]
     term = str(packet["TermType"])
     ending = term if term == "FINE" else f"CNT{int(packet.get('TermValue', 100))}"
     move = f"{letter} P[1] {_speed(packet, letter)} {ending}"
-    return listing_of(f"UFRAME_NUM={frame} ;\n   2:  UTOOL_NUM={tool} ;\n   3:{move}", target_text(packet, frame, tool))
+    return listing_of(
+        f"UFRAME_NUM={frame} ;\n   2:  UTOOL_NUM={tool} ;\n   3:{move}", target_text(packet, frame, tool), PROGRAM
+    )
 
 
 def _speed(packet: Packet, letter: str) -> str:
@@ -248,12 +255,6 @@ def target_text(packet: Packet, frame: int, tool: int) -> str:
     body = ",\n".join(f"\t{axis} = {float(place[axis]):.4f} {unit}" for axis, unit in units.items())
     config = f"CONFIG : '{' '.join(letters)}, {turns}'"
     return f"P[1]{{\n   GP1:\n\tUF : {frame}, UT : {tool}, {config},\n{body}\n}};\n"
-
-
-def listing_of(body: str, places: str, program: str = PROGRAM) -> str:
-    """A program of this instruction (the first line of several) and these positions."""
-    head = f"/PROG  {program}\n/ATTR\nPROTECT = READ_WRITE;\nDEFAULT_GROUP = 1,*,*,*,*;\n"
-    return f"{head}/MN\n   1:  {body} ;\n/POS\n{places}/END\n"
 
 
 async def start_remote(cabinet: Cabinet, endpoints: Endpoints, values: Values) -> None:

@@ -5,67 +5,20 @@ from __future__ import annotations
 import asyncio
 import re
 import struct
-from dataclasses import dataclass, field
-from pathlib import PurePosixPath
+from dataclasses import dataclass
 
-from rpl import registry
 from rpl.controllers.fanuc import snpx
 from rpl.controllers.fanuc.snpx import Request
-from rpl.controllers.virtual.cabinet import Cabinet
+from rpl.controllers.fanuc.values import Values
 from rpl.controllers.virtual.store import NotDoneError
 from rpl.controllers.virtual.transcript import Kind
-from rpl.errors import UsageError
 
 _ASSIGN = re.compile(r"SETASG\s+(\d+)\s+(\d+)\s+(.+?)\s+(-?\d*\.?\d+)\s*$", re.IGNORECASE)
 _INDEXED = re.compile(r"(R|SR|PR|POS|PRG)\[\s*(?:G1\s*:)?\s*([A-Z]*)(\d+)\s*\]$", re.IGNORECASE)
 _BITS = {snpx.OUTPUTS: "DO", snpx.INPUTS: "DI"}
 _GROUPS = {snpx.ANALOG_IN: "GO", snpx.ANALOG_OUT: "GI"}
 _WORDS = {"SR": snpx.TEXT_WORDS, "PR": snpx.POSITION_WORDS, "POS": snpx.POSITION_WORDS, "PRG": snpx.TASK_WORDS}
-_STATES = {"stopped": 0, "paused": 1, "running": 2}
 _MOST_WORDS = 10_000
-
-
-@dataclass
-class Values:
-    """What the controller keeps besides its programs: registers, system variables."""
-
-    cabinet: Cabinet
-    numbers: dict[int, float] = field(default_factory=dict)
-    texts: dict[int, str] = field(default_factory=dict)
-    places: dict[int, bytes] = field(default_factory=dict)
-    system: dict[str, float] = field(default_factory=lambda: {"$MCR.$GENOVERRIDE": 100.0})
-
-    def number(self, index: int) -> float:
-        """R[index]: that of the selected program where it has one."""
-        try:
-            found = self.cabinet.variable(f"R{index}")
-        except (NotDoneError, UsageError):
-            found = None
-        return float(found) if isinstance(found, int | float) else self.numbers.get(index, 0.0)
-
-    def place(self) -> bytes:
-        joints, flange = self.cabinet.joints, self.cabinet.flange
-        if joints is None or flange is None:
-            return bytes(2 * snpx.POSITION_WORDS)
-        from rpl.emulator.rotations import matrix_to_xyz_fixed
-
-        pose = (*map(float, flange[:3, 3]), *map(float, matrix_to_xyz_fixed(flange[:3, :3])))
-        return snpx.position_bytes(snpx.Place(pose, joints, self._posture(joints)))
-
-    def _posture(self, joints: tuple[float, ...]) -> tuple[int, ...]:
-        """The posture as the pendant shows it. M: joint 5 has no turns."""
-        import numpy as np
-
-        notation = registry.dialect(self.cabinet.dialect).notation
-        if notation is None or self.cabinet.model is None:
-            return (0, 0, 1, 1, 0, 0, 0)
-        flags = notation().encode(self.cabinet.model, np.array(joints))
-        flip, down, back = (flags.get(name, 0) for name in ("flip", "down", "back"))
-        return (flip, 0, 1 - down, 1 - back, flags.get("t4", 0), 0, flags.get("t6", 0))
-
-    def task(self) -> bytes:
-        name = PurePosixPath(self.cabinet.program).stem.upper()
-        return snpx.task_bytes(name, self.cabinet.line, _STATES[self.cabinet.phase])
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +131,7 @@ class Panel:
             values = [int(self.values.number(number)) for number in range(first, last + 1)]
             return struct.pack(f"<{len(values)}h", *(max(-(2**15), min(2**15 - 1, value)) for value in values))
         for number, value in enumerate(struct.unpack_from(f"<{request.size}h", request.data), first):
-            self.values.numbers[number] = float(value)
+            self.values.set_number(number, float(value))
         return b""
 
     def _read(self, window: Window) -> bytes:
@@ -198,9 +151,9 @@ class Panel:
         if bank == "R":
             return _number(values.number(index), multiply)
         if bank == "SR":
-            return values.texts.get(index, "").encode("latin-1", "replace")[:80].ljust(80, b"\x00")
+            return values.text(index).encode("latin-1", "replace")[:80].ljust(80, b"\x00")
         if bank == "PR":
-            return values.places.get(index, bytes(2 * snpx.POSITION_WORDS))
+            return values.position(index)
         return values.task() if bank == "PRG" else values.place()
 
     def _write(self, window: Window, offset: int, data: bytes) -> None:
@@ -213,13 +166,14 @@ class Panel:
         index += int(found[3])
         if bank == "R" and rest == 0:
             for place in range(0, len(data) - 3, 4):
-                self.values.numbers[index + place // 4] = _value(data[place : place + 4], window.multiply)
+                number = _value(data[place : place + 4], window.multiply)
+                self.values.set_number(index + place // 4, number)
         elif bank == "SR" and rest == 0:
-            self.values.texts[index] = snpx.text_of(data)
+            self.values.set_text(index, snpx.text_of(data))
         elif bank == "PR":
-            kept = bytearray(self.values.places.get(index, bytes(2 * snpx.POSITION_WORDS)))
+            kept = bytearray(self.values.position(index))
             kept[rest : rest + len(data)] = data
-            self.values.places[index] = bytes(kept[: 2 * snpx.POSITION_WORDS])
+            self.values.set_position(index, bytes(kept[: 2 * snpx.POSITION_WORDS]))
         else:
             raise NotDoneError("protected", window.name)
 

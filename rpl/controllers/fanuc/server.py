@@ -5,8 +5,9 @@ from __future__ import annotations
 from rpl.controllers.fanuc.driver import Driver
 from rpl.controllers.fanuc.memory import Memory, as_kept, rewritten
 from rpl.controllers.fanuc.motion import start_remote
-from rpl.controllers.fanuc.panel import Panel, Values
+from rpl.controllers.fanuc.panel import Panel
 from rpl.controllers.fanuc.streaming import start_streaming
+from rpl.controllers.fanuc.values import Values
 from rpl.controllers.virtual.cabinet import Cabinet
 from rpl.controllers.virtual.endpoints import Endpoints
 from rpl.errors import UsageError
@@ -26,6 +27,7 @@ async def start(cabinet: Cabinet, endpoints: Endpoints) -> None:
         raise UsageError("a virtual FANUC controller needs pyftpdlib: pip install 'robot-rpl[ftp]'") from None
     serve_files(cabinet, endpoints, memory, ("MD:", "MDB:"), banner="R-30iB FTP server ready.")
     values = Values(cabinet)
+    values.read_dumps()
     await endpoints.stream("snpx", 60008, lambda reader, writer: Panel(values).serve(reader, writer))
     await start_remote(cabinet, endpoints, values)
     await start_streaming(endpoints, values)

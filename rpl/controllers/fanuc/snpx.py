@@ -108,11 +108,22 @@ class Place:
     posture: tuple[int, ...] = (0, 0, 1, 1, 0, 0, 0)
 
 
-def position_bytes(place: Place) -> bytes:
-    """100 bytes: the pose, its configuration, that it is valid; the joints, that they are; frame and tool."""
-    pose = struct.pack("<9f", *place.xyzwpr, 0.0, 0.0, 0.0) + struct.pack("<7h", *place.posture) + b"\x01\x01"
-    joints = (*place.joints, *(0.0,) * 9)[:9]
-    return pose + struct.pack("<9f", *joints) + b"\x01\x01" + bytes(10)
+_POSE_VALID, _JOINTS_VALID = 50, 88
+
+
+def position_bytes(place: Place, pose: bool = True, joints: bool = True) -> bytes:
+    """100 bytes: the pose, its configuration, whether it is valid; the joints, whether they are; frame and tool."""
+    first = struct.pack("<9f", *place.xyzwpr, 0.0, 0.0, 0.0) + struct.pack("<7h", *place.posture) + bytes([pose] * 2)
+    axes = (*place.joints, *(0.0,) * 9)[:9]
+    return first + struct.pack("<9f", *axes) + bytes([joints] * 2) + bytes(10)
+
+
+def has_pose(data: bytes) -> bool:
+    return any(data[_POSE_VALID : _POSE_VALID + 2])
+
+
+def has_joints(data: bytes) -> bool:
+    return any(data[_JOINTS_VALID : _JOINTS_VALID + 2])
 
 
 def position_of(data: bytes) -> Place:

@@ -11,8 +11,8 @@ import struct
 import time
 from typing import cast
 
-from rpl.controllers.fanuc.panel import Values
 from rpl.controllers.fanuc.snpx import position_of
+from rpl.controllers.fanuc.values import Values
 from rpl.controllers.virtual.endpoints import Endpoints
 from rpl.controllers.virtual.faults import DroppedError
 from rpl.controllers.virtual.transcript import Kind

@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol
 
 from rpl import ir
 from rpl.controllers.virtual import within
@@ -51,10 +51,18 @@ def _run_on(simulation: Simulation, seconds: float) -> bool:
     return goes_on
 
 
+class Keeper(Protocol):
+    """Data that outlive programs (registers): they go into one that is selected, and stay when it ends."""
+
+    def given(self, simulation: Simulation) -> None: ...
+    def taken(self, simulation: Simulation) -> None: ...
+
+
 @dataclass
 class Cabinet:
     """dialect: the language of its programs. `store`: its files. `time_scale`: simulated seconds of one real second.
-    `cell`: what its own statements stand for. `sources`: the texts of the selected program."""
+    `cell`: what its own statements stand for. `sources`: the texts of the selected program. `keeper`: of data that
+    outlive programs."""
 
     vendor: str
     dialect: str
@@ -75,6 +83,7 @@ class Cabinet:
     requests: int = 0
     cell: Cell | None = None
     fit: within.Fit = within.as_it_is
+    keeper: Keeper | None = field(default=None, repr=False)
     sources: tuple[Source, ...] = ()
     _simulation: Simulation | None = field(default=None, repr=False)
     _waiting: tuple[Simulation, Callable[[Simulation], None]] | None = field(default=None, repr=False)
@@ -148,7 +157,11 @@ class Cabinet:
         with self.lock:
             for name, value in self._signals.items():
                 simulation.set_input(name, value)
+            if self.keeper is not None and self.outer is not None:
+                self.keeper.taken(self.outer)
             self._keep_data(simulation, anew.lower())
+            if self.keeper is not None:
+                self.keeper.given(simulation)
             self._stand(simulation)
             self._simulation, self._waiting, self.sources = simulation, None, tuple(sources)
             self.program = entry or sources[0].path
@@ -221,6 +234,8 @@ class Cabinet:
         with self.lock:
             self.advance()
             self._keep_standing()
+            if self.keeper is not None and self.outer is not None:
+                self.keeper.taken(self.outer)
             self.phase, self._simulation, self._waiting = "stopped", None, None
 
     def end_move(self) -> None:

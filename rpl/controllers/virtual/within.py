@@ -24,7 +24,11 @@ def as_it_is(type: ir.Type, value: Value) -> Value:
 
 
 def data_of(simulation: Simulation) -> dict[str, Value]:
-    """The global data of a program, by `module.name`."""
+    """The global data of a program, by `module.name`; also what only routines use that nobody has called yet."""
+    for module in simulation.program.program.modules:
+        for one in module.declarations:
+            if isinstance(one, ir.Variable):
+                simulation.program.variable_slot(f"{module.name}.{one.name}")  # makes it a place
     slots = simulation.program.slots
     if len(simulation.globals) < len(slots):
         simulation.linked.initialise(simulation.globals, simulation)
