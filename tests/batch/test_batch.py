@@ -144,13 +144,14 @@ def test_after_ctrl_c_the_same_command_goes_on(plant: Path, interruptible: None)
 
 
 def test_every_program_of_a_project_is_run_where_none_is_the_main_one(plant: Path) -> None:
-    """Strangers among the files of a folder are no errors."""
+    """Strangers among the files of a folder are no errors; a subprogram of a file is no program."""
     (plant / "hall1/b.src").write_text(GOOD.format("b") + "DEF inner()\nWAIT FOR $IN[3]\nEND\n")
+    (plant / "hall1/e.src").write_text("DEF e()\nWAIT FOR $IN[3]\nEND\n")
     (plant / "hall1/d.src").write_bytes(b"\x00\x01" * 50)
     hall = next(one for one in projects(plant, together=True) if one.name == "hall1")
     found = [made for made in answer(hall, Asked(RUN)) if isinstance(made, rows.Row)]
-    assert [(row.entry, row.outcome) for row in found] == [("a", "good"), ("b", "good"), ("inner", "deadlock")]
-    assert found[2].place is not None and found[2].place.startswith("hall1/b.src:")
+    assert [(row.entry, row.outcome) for row in found] == [("a", "good"), ("b", "good"), ("e", "deadlock")]
+    assert found[2].place is not None and found[2].place.startswith("hall1/e.src:")
 
 
 def test_results_as_parquet_are_the_same_each_time(plant: Path) -> None:
