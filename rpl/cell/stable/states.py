@@ -158,7 +158,8 @@ def _exact(shape: Shape) -> list[tuple[FloatArray, float, float]] | None:
         case Cylinder(diameter=diameter, height=height):
             radius, half = diameter / 2.0, height / 2.0
             slant = math.hypot(radius, half)
-            side, end = half / slant * (slant - radius), (1.0 - half / slant) / 2.0 * (slant - half)
+            end = (1.0 - half / slant) / 2.0 * (1.0 - half / slant)
+            side = half / slant * math.sqrt(1.0 - radius / slant)
             total = side + 2.0 * end
             ends = [(np.array([0.0, 0.0, z]), half, end / total) for z in (-1.0, 1.0)]
             return [*ends, (np.array([0.0, -1.0, 0.0]), radius, side / total)]
