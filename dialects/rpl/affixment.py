@@ -19,6 +19,8 @@ from rpl.ir.walk import map_children, walk
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import Origin
 
+from .references import by_reference
+
 Affixment = tuple[str, ir.Expression, Origin]
 """A hanging frame as it was declared: its name, what it hangs on, and where."""
 Key = tuple[int, int, str]
@@ -177,17 +179,8 @@ class _Hanging:
 
     def _report_changed(self, name: str, arguments: Sequence[ir.Argument], scope: Scope) -> None:
         """Frames that are passed to a parameter through which the routine would change them."""
-        routine = scope.routine(name)
-        if routine is None:
-            return
-        named = {scope.fold(parameter.name): parameter for parameter in routine.parameters}
-        positional = iter([parameter for parameter in routine.parameters if not parameter.optional])
-        for argument in arguments:
-            parameter = named.get(scope.fold(argument.name)) if argument.name else next(positional, None)
-            value = argument.value
-            if parameter is None or parameter.mode != "reference" or not isinstance(value, ir.Name):
-                continue
-            if self._frame(value, scope) is not None:
+        for value in by_reference(name, arguments, scope):
+            if isinstance(value, ir.Name) and self._frame(value, scope) is not None:
                 self.diagnostics.report(CHANGED_COPY, value.origin, name=value.id, routine=name)
 
 

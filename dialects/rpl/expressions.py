@@ -13,6 +13,8 @@ from rpl.ir import words
 from rpl.reading.shapes import Slot, StatementError, SyntaxTree, real_number
 from rpl.source import Origin
 
+from .affixes import Affixing
+
 Child = Token | Slot | SyntaxTree
 _ByName = TypeVar("_ByName")
 
@@ -27,12 +29,13 @@ _BINARY = {
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What lowering one statement needs: the spellings of its numbers, where it stands, and the list that takes the
-    frames declared to hang on others."""
+    """What lowering one statement needs: the spellings of its numbers, where it stands, and the lists that take the
+    frames declared to hang on others and the statements that affix frames while the program runs."""
 
     numbers: tuple[str, ...]
     origin: Origin
     affixed: list[tuple[str, ir.Expression, Origin]] = field(default_factory=list)
+    affixing: list[Affixing] = field(default_factory=list)
 
     def integer(self, child: Child) -> int:
         text = self.spelling(child)

@@ -17,6 +17,7 @@ from rpl.reading.shapes import ShapeParser, SyntaxTree
 from rpl.registry import ReadResult
 from rpl.source import Comment, Origin, Source
 
+from .affixes import Affixing, with_affixments
 from .affixment import Affixment, affix
 from .blocks import DECLARED, Builder, lower, scoped
 from .expressions import Reading
@@ -45,11 +46,12 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     entry = ""
     files: list[FileReport] = []
     affixed: list[Affixment] = []
+    affixing: list[Affixing] = []
     for source in sources:
         builder = Builder(diagnostics)
 
         def lowered(tree: SyntaxTree, numbers: tuple[str, ...], origin: Origin) -> Element | tuple[Element, ...]:
-            return lower(tree, Reading(numbers, origin, affixed))
+            return lower(tree, Reading(numbers, origin, affixed, affixing))
 
         assembly = assemble(source, words.NATIVE, split(source), parser, lowered, builder.build, diagnostics)
         found = _File(source)
@@ -61,7 +63,9 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
         entry = entry or found.entry
         files.append(assembly.report)
     _report_replaced(modules, tasks, entry, places, diagnostics)
-    program = affix(ir.Program(tuple(modules), tuple(tasks), entry), affixed, diagnostics)
+    program = ir.Program(tuple(modules), tuple(tasks), entry)
+    hanging = [(name, origin) for name, _, origin in affixed]
+    program = affix(with_affixments(program, affixing, hanging, diagnostics), affixed, diagnostics)
     modules = [with_signal_parameters(module) for module in program.modules]
     return ReadResult(replace(program, modules=tuple(modules)), tuple(files))
 

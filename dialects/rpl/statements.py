@@ -10,6 +10,7 @@ from rpl import ir
 from rpl.ir import words
 from rpl.reading.shapes import StatementError, SyntaxTree
 
+from .affixes import Affixing
 from .expressions import (
     Reading,
     argument,
@@ -67,6 +68,20 @@ def _call_by_name(tree: SyntaxTree, at: Reading) -> ir.Statement:
 
 def _gripper_call(prefix: str) -> Lowering:
     return lambda tree, at: ir.CallRoutine(prefix + names(tree)[0], origin=at.origin)
+
+
+def _affix(tree: SyntaxTree, at: Reading) -> ir.Statement:
+    return _affixing("rigidly" if _has(tree, "RIGIDLY") else "affix", tree, at)
+
+
+def _unfix(tree: SyntaxTree, at: Reading) -> ir.Statement:
+    return _affixing("unfix", tree, at)
+
+
+def _affixing(kind: str, tree: SyntaxTree, at: Reading) -> ir.Statement:
+    child, parent = trees(tree)
+    at.affixing.append(Affixing(kind, expression(child, at), expression(parent, at), at.origin))
+    return at.affixing[-1].stand_in
 
 
 def _set_after(tree: SyntaxTree, at: Reading) -> ir.Statement:
@@ -285,6 +300,8 @@ STATEMENTS: dict[str, Lowering] = {
     **ACTIONS,
     "open_gripper": _gripper_call("open_"),
     "close_gripper": _gripper_call("close_"),
+    "affix": _affix,
+    "unfix": _unfix,
     "set_after": _set_after,
     "pulse": _pulse,
     "exit_loop": _bare(ir.ExitLoop),

@@ -93,10 +93,10 @@ HALT_WORDS: dict[str, str] = {"": "stop", "exit": "exit", "cycle": "cycle"}
 
 # Keywords that cannot stand bare as a name at every place; a name like that is written in backticks.
 _RESERVED = """
-    alias arm array ask at attribute backward begin bnot by call case close connect const continue default else entry
-    enum errors exit external false for frame function global goto gripper halt if init label local loop message module
-    move next not nothing off on opaque open percent persistent plain procedure pulse raise record repeat retry return
-    rotation routine set signal spline switch task then trap true undo unread until var vendor wait while
+    affix alias arm array ask at attribute backward begin bnot by call case close connect const continue default else
+    entry enum errors exit external false for frame function global goto gripper halt if init label local loop message
+    module move next not nothing off on opaque open percent persistent plain procedure pulse raise record repeat retry
+    return rotation routine set signal spline switch task then trap true undo unfix unread until var vendor wait while
 """
 RESERVED = frozenset(_RESERVED.split())
 
