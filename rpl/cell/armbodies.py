@@ -99,28 +99,45 @@ def link_poses(model: RobotModel, joints: ArrayLike) -> FloatArray:
     The product of exponentials over the joint axes at theta = 0 (Lynch and Park, Modern Robotics, 2017, ch. 4.1).
     """
     theta = model.theta(joints)
-    points, directions = model.arm.axes(np.zeros(model.axes))
     poses = np.zeros((len(theta), model.axes + 1, 4, 4))
     poses[:, :, 3, 3] = 1.0
     poses[:, 0] = np.eye(4)
+    sines, rests = np.sin(theta.T), 1.0 - np.cos(theta.T)
     # The numbers of all moments side by side: turned (3, 3, k) and shifted (3, k).
     turned = np.repeat(np.eye(3)[:, :, None], len(theta), axis=2)
     shifted = np.zeros((3, len(theta)))
-    for joint, (point, direction, turning) in enumerate(zip(points, directions, model.revolute, strict=True)):
-        value = theta[:, joint]
-        if turning:
-            x, y, z = direction
-            across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-            before = np.einsum("ijk,j->ik", turned, point)
+    for joint, screw in enumerate(_screws(model)):
+        if screw.turning:
+            before = screw.point @ turned
             # Rodrigues: R (I + sin K + (1 - cos) K K), about the point.
-            first = across.T @ turned
-            turned = turned + np.sin(value) * first + (1.0 - np.cos(value)) * (across.T @ first)
-            shifted = shifted + before - np.einsum("ijk,j->ik", turned, point)
+            first = screw.across @ turned
+            turned = turned + sines[joint] * first + rests[joint] * (screw.across @ first)
+            shifted = shifted + before - screw.point @ turned
         else:
-            shifted = shifted + np.einsum("ijk,j->ik", turned, direction) * value
+            shifted = shifted + (screw.direction @ turned) * theta[:, joint]
         poses[:, joint + 1, :3, :3] = turned.transpose(2, 0, 1)
         poses[:, joint + 1, :3, 3] = shifted.T
     return poses
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Screw:
+    """A joint at theta = 0: a point on its axis and its direction (3,); `across` @ v is v x direction for columns."""
+
+    turning: bool
+    point: FloatArray
+    direction: FloatArray
+    across: FloatArray
+
+
+@lru_cache(maxsize=64)
+def _screws(model: RobotModel) -> tuple[_Screw, ...]:
+    found = []
+    for point, direction, turning in zip(*model.arm.axes(np.zeros(model.axes)), model.revolute, strict=True):
+        x, y, z = direction
+        across = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+        found.append(_Screw(bool(turning), point, direction, across))
+    return tuple(found)
 
 
 def capsule_between(link: int, start: FloatArray, end: FloatArray, radius: float) -> LinkBody:

@@ -68,7 +68,7 @@ class Cylinder:
         flat = np.array([0.0, 0.0, math.copysign(1.0, point[2])])
         inside = side * min(far, radius) + np.array([0.0, 0.0, min(max(point[2], -half), half)])
         off = point - inside
-        if (away := float(np.linalg.norm(off))) > 0.0:
+        if (away := float(np.linalg.norm(off))) > 1e-9:  # less is rounding of a point inside
             return inside, off / away
         if radius - far < half - abs(point[2]):
             return side * radius + np.array([0.0, 0.0, point[2]]), side
