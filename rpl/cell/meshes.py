@@ -6,8 +6,12 @@ A cell needs bodies with an inside: a mesh with holes has no volume, no centre o
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -22,7 +26,15 @@ UNIT_MM = {".stl": 1.0, ".obj": 1.0, ".ply": 1.0, ".glb": 1000.0, ".step": 1000.
 STEP = (".step", ".stp")
 SMALLEST_MM, LARGEST_MM = 0.5, 20_000.0  # of the longest side; beyond them the unit is doubted
 _FLAT = 1e-12  # area of a degenerate triangle, in squares of the longest side
-_UNREADABLE = (ValueError, LookupError, TypeError, AttributeError, NotImplementedError, ImportError, OSError)
+# What trimesh's readers raise on damaged files, a variable that was not set included.
+_UNREADABLE = (ValueError, LookupError, TypeError, AttributeError, NameError, RuntimeError, ImportError, OSError)
+# Facets of a STEP file are at most this far from the surface (mm), and turn at most by this angle from one to the next.
+_STEP_AWAY_MM, _STEP_ANGLE_RAD = 0.02, 0.2
+_STEP_LONGEST_S = 600.0
+# In a process of its own: Open CASCADE writes to the terminal, and a damaged file can end it.
+_CONVERT = (
+    "import sys, cascadio; cascadio.step_to_glb(sys.argv[1], sys.argv[2], float(sys.argv[3]), float(sys.argv[4]))"
+)
 
 
 def load_mesh(path: str | Path, scale: float | None = None, repair: bool = False) -> Mesh:
@@ -45,12 +57,13 @@ def load_mesh(path: str | Path, scale: float | None = None, repair: bool = False
     if not len(read.faces):
         raise UsageError(f"{path}: there are no triangles in it; is it a {kind} file with a body?")
     vertices = np.asarray(read.vertices, dtype=np.float64)
-    if not np.isfinite(vertices).all():
-        raise UsageError(f"{path}: it has corners that are no numbers; export it again")
+    if read.faces.min() < 0 or read.faces.max() >= len(vertices) or not np.isfinite(vertices).all():
+        raise UsageError(f"{path}: it has triangles without corners, or corners that are no numbers; export it again")
     read.apply_scale(UNIT_MM[kind] * (1.0 if scale is None else scale))
     if scale is None:
         _believable(path, float(read.extents.max()))
-    _closed(read, path, repair)
+    with np.errstate(all="ignore"):
+        _closed(read, path, repair)
     if read.volume < 0.0:
         read.invert()
     return Mesh(np.array(read.vertices, dtype=np.float64), np.array(read.faces, dtype=np.int64), str(path))
@@ -75,20 +88,31 @@ def _trimesh() -> Any:
 
 def _read(path: Path, kind: str) -> Any:
     trimesh = _trimesh()
-    if kind in STEP:
-        try:
-            import cascadio  # noqa: F401  (trimesh reads STEP by it)
-        except ImportError:
-            raise UsageError(
-                f"{path}: STEP needs the package cascadio: pip install 'robot-rpl[step]'; or export it as STL in mm"
-            ) from None
     try:
-        loaded = trimesh.load_scene(path, **({"skip_materials": True} if kind == ".obj" else {}))
-        return loaded.to_mesh()
+        if kind in STEP:
+            with TemporaryDirectory() as folder:
+                return trimesh.load_scene(_converted(path, Path(folder) / "part.glb")).to_mesh()
+        return trimesh.load_scene(path, **({"skip_materials": True} if kind == ".obj" else {})).to_mesh()
     except _UNREADABLE as error:
         raise UsageError(
             f"{path}: it cannot be read as {kind}: it is damaged, or something else; export it again"
         ) from error
+
+
+def _converted(path: Path, into: Path) -> Path:
+    """A STEP file as GLB, in metres. Raises OSError where it cannot be."""
+    if find_spec("cascadio") is None:
+        raise UsageError(
+            f"{path}: STEP needs the package cascadio: pip install 'robot-rpl[step]'; or export it as STL in mm"
+        )
+    words = [sys.executable, "-c", _CONVERT, str(path.absolute()), str(into), str(_STEP_AWAY_MM), str(_STEP_ANGLE_RAD)]
+    try:
+        done = subprocess.run(words, capture_output=True, timeout=_STEP_LONGEST_S)
+    except subprocess.TimeoutExpired:
+        raise UsageError(f"{path}: it was not converted in {_STEP_LONGEST_S:g} s; export it as STL in mm") from None
+    if done.returncode or not into.is_file():
+        raise OSError("no result")
+    return into
 
 
 def _believable(path: str | Path, longest_mm: float) -> None:

@@ -152,6 +152,7 @@ LINE = Facets(np.array([[0.0, 0, 0], [10, 0, 0], [20, 0, 0]]), np.array([[0, 1, 
         ("part.ply", ply(PART)[:200], "cannot be read as .ply"),
         ("part.glb", b"glTF and nothing more", "cannot be read as .glb"),
         ("part.step", b"ISO-10303-21; nonsense", "cannot be read as .step"),
+        ("part.obj", obj(PART).replace(b"f 1 ", b"f 99 "), "export it again"),
         ("part.stl", stl(PART, 1000.0), "it is 40 m long when read in mm"),
         ("part.stl", stl(PART, 0.001), "it is 0.04 mm long when read in mm; if it is in metres give a scale of 1000"),
         ("part.stl", stl(without(PART, 3)), "the mesh has holes: 3 edges"),
@@ -189,5 +190,6 @@ def test_a_missing_library_is_named_with_its_extra(
     package: str, name: str, extra: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, package, None)
+    monkeypatch.setattr("rpl.cell.meshes.find_spec", lambda name: None)
     with pytest.raises(UsageError, match=rf"{package}.*robot-rpl\[{extra}\]"):
         load_mesh(written(tmp_path, name, WRITERS[Path(name).suffix](PART)))

@@ -75,6 +75,13 @@ def test_a_mesh_of_a_curved_form_says_the_same_as_the_form(shape: Shape) -> None
     assert [one.height_mm for one in faceted] == pytest.approx([one.height_mm for one in exact], rel=0.011)
 
 
+@pytest.mark.parametrize(("sides", "states"), [(6, 8), (8, 10), (12, 14), (16, 3), (24, 3), (200, 3)])
+def test_a_bar_of_many_sides_is_round(sides: int, states: int) -> None:
+    turns = [2.0 * math.pi * number / sides for number in range(sides)]
+    outline = tuple((10.0 * math.cos(turn), 10.0 * math.sin(turn)) for turn in turns)
+    assert len(stable_states(Extrusion(outline, 15.0))) == states
+
+
 def test_a_sheet_can_stand_on_its_edge_but_hardly_does() -> None:
     states = stable_states(Box((100.0, 100.0, 1.0)))
     assert len(states) == 6

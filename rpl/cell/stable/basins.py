@@ -30,9 +30,9 @@ import numpy as np
 from rpl.cell.stable.hull import Hull
 from rpl.emulator.rotations import FloatArray, IntArray
 
-# A pass is none when it is this much higher than the valley, in parts of its height: 22 or more facets around a circle.
-_CURVED = 0.01
-_CURVED_COSINE = np.cos(np.radians(17.0))  # between neighbouring facets of a curved face
+# A pass is none when it is this much higher than the valley, in parts of its height: 16 or more facets around a circle.
+_CURVED = 0.02
+_CURVED_COSINE = np.cos(np.radians(23.0))  # between neighbouring facets of a curved face
 _SAME_PLANE = np.radians(0.5)
 _LEVEL_SLOPE = 0.2  # of the height over the angle, in parts of the height
 _ANOTHER_AXIS = 0.1
