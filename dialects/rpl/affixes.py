@@ -1,9 +1,10 @@
-"""AFFIX part TO hand [RIGIDLY] and UNFIX part FROM hand, as the arithmetic of frames.
+"""AFFIX part TO hand [RIGIDLY], UNFIX part FROM hand and CLOSE gripper ON part, as the arithmetic of frames.
 
 AL (Stanford, 1974) had the statement: the place of a frame is kept up to date when the frame changes that it is affixed
 to, and RIGIDLY makes it symmetric (docs/rpl.md, Affixments). What can be affixed stands in the program's text, so no
 run needs to know of it: AFFIX keeps the relative pose and sets a flag, and behind each statement that changes a frame
 stands a call of the procedure that moves what hangs on it (following.py). Runs, passes and targets see assignments.
+The tool changes by moves, not by statements: what is affixed to it is brought up to date before it is looked at.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from rpl.ir.walk import children, is_statement, rewrite, walk
 from rpl.passes.scope import ProgramScope, Scope
 from rpl.source import Origin
 
-from .following import MOST_STEPS, Following, Pair
+from .following import MOST_STEPS, TOOL, Following, Pair
 from .references import by_reference
 
 Key = tuple[int, int]
@@ -55,19 +56,27 @@ UNSEEN_CHANGE = code(
     "{name} takes part in an affixment and is changed where nothing can follow it: {where}",
     "change it by a statement of its own: call a procedure that assigns to it, or call the function in an assignment",
 )
+HELD = code(
+    "held-part-read-here",
+    Severity.ERROR,
+    "{name} can be affixed to the tool and is read where its place cannot be worked out first: {where}",
+    "read it into a variable by a statement of its own, in front of this or inside of the loop",
+)
+_AGAIN = (ir.While, ir.Repeat, ir.WaitUntil, ir.DeclareInterrupt, ir.OrderInterrupt)
 _ENDS = (ir.Return, ir.Raise, ir.WaitUntil, ir.DeclareInterrupt, ir.OrderInterrupt, ir.TaskControl)
 _BLOCKS = (ir.If, ir.Switch, ir.For, ir.While, ir.Repeat, ir.Loop, ir.Spline)
 
 
 @dataclass(frozen=True, slots=True)
 class Affixing:
-    """An AFFIX or UNFIX as it was read. kind: affix, rigidly, unfix. Where it stands in a body there is a call of
-    nothing in its place until the whole program is known."""
+    """An AFFIX, UNFIX or CLOSE ... ON as it was read. kind: affix, rigidly, unfix. parent: nothing where that is the
+    tool. A call of nothing stands in its place in the body until the whole program is known."""
 
     kind: str
     child: ir.Expression
-    parent: ir.Expression
+    parent: ir.Expression | None
     origin: Origin
+    gripper: str = ""
 
     @property
     def stand_in(self) -> ir.CallRoutine:
@@ -108,6 +117,9 @@ class _Affixments:
     moved: dict[int, str] = field(default_factory=dict)  # frame -> the procedure that a change of it calls
     meant: dict[Key, Pair] = field(default_factory=dict)  # the pairs of the statements that are as they should be
     added: dict[int, tuple[list[ir.Variable], list[ir.Routine]]] = field(default_factory=dict)  # to modules
+    released: dict[int, list[Pair]] = field(default_factory=dict)  # by the routine that opens a gripper
+    with_tool: set[int] = field(default_factory=set)  # the frames that hang together with the tool
+    carried: set[int] = field(default_factory=set)  # those of them that the tool can carry along
     _taken: set[str] = field(default_factory=set)
 
     # ---- what the statements mean
@@ -121,19 +133,27 @@ class _Affixments:
             if self._stands_for(node)
         ]
         for scope, statement in sorted(places, key=lambda place: place[1].kind == "unfix"):
-            frames = [self._frame(one, scope, statement.origin) for one in (statement.child, statement.parent)]
-            child, parent = frames
+            child, parent = self._frame(statement.child, scope, statement.origin), self._parent(statement, scope)
             if child is None or parent is None:
                 continue
             if child is parent:
                 self.diagnostics.report(TO_ITSELF, statement.origin, name=child.name)
                 continue
-            self._take(statement, child, parent)
+            self._take(statement, child, parent, scope)
+
+    def _parent(self, statement: Affixing, scope: Scope) -> ir.Variable | None:
+        if statement.parent is not None:
+            return self._frame(statement.parent, scope, statement.origin)
+        if statement.kind == "rigidly":
+            why = "a robot is moved by MOVE, not by its data (leave RIGIDLY out)"
+            self.diagnostics.report(NO_FRAME, statement.origin, name="TOOL", why=why)
+            return None
+        return TOOL
 
     def _stands_for(self, node: object) -> TypeGuard[ir.CallRoutine]:
         return isinstance(node, ir.CallRoutine) and not node.name and _key(node.origin) in self.statements
 
-    def _take(self, statement: Affixing, child: ir.Variable, parent: ir.Variable) -> None:
+    def _take(self, statement: Affixing, child: ir.Variable, parent: ir.Variable, scope: Scope) -> None:
         pair = next((one for one in self.pairs if one.child is child and one.parent is parent), None)
         if pair is None:
             if statement.kind == "unfix":
@@ -144,6 +164,9 @@ class _Affixments:
         pair.rigid |= statement.kind == "rigidly"
         pair.one_way |= statement.kind == "affix"
         self.meant[_key(statement.origin)] = pair
+        opens = scope.routine(f"open_{statement.gripper}") if statement.gripper else None
+        if opens is not None and pair not in self.released.setdefault(id(opens), []):
+            self.released[id(opens)].append(pair)
 
     def _frame(self, named: ir.Expression, scope: Scope, at: Origin) -> ir.Variable | None:
         """The frame that an AFFIX names, or nothing, reported."""
@@ -191,7 +214,7 @@ class _Affixments:
                 self.diagnostics.report(OUT_OF_SIGHT, pairs[0].origin, name=names, names=names)
                 self.meant = {key: pair for key, pair in self.meant.items() if pair not in pairs}
                 continue
-            local = all(frame.scope == "module" for frame in frames.values())
+            local = all(frame.scope == "module" for frame in frames.values()) and self._opens_in(home, pairs)
             for pair in pairs:
                 pair.name(self._free)
             variables, routines = self.added.setdefault(id(home), ([], []))
@@ -199,9 +222,20 @@ class _Affixments:
             for frame in frames.values():
                 routines += self._procedure(frame, pairs, "task" if local else "global")
 
+    def _opens_in(self, home: ir.Module, pairs: Sequence[Pair]) -> bool:
+        """Whether the routines that release any of the pairs stand in that module."""
+        return all(
+            module is home
+            for module, routine in self.scopes.routines()
+            if any(pair in pairs for pair in self.released.get(id(routine), ()))
+        )
+
     def _procedure(self, frame: ir.Variable, pairs: Sequence[Pair], scope: str) -> list[ir.Routine]:
         following = Following(pairs)
         body = following.body(frame)
+        if frame is TOOL:
+            self.carried |= following.frames.keys()
+            self.with_tool |= {id(one) for pair in pairs for one in (pair.child, pair.parent)}
         if following.steps > MOST_STEPS:
             self.diagnostics.report(TANGLED, frame.origin, name=frame.name)
         if not body:
@@ -224,9 +258,10 @@ class _Affixments:
 
     def _home(self, frames: Mapping[int, ir.Variable]) -> ir.Module | None:
         """The module that sees all the frames by their names; first the one of the first frame."""
-        first = self.scopes.home(next(iter(frames.values())))
+        declared = [frame for frame in frames.values() if frame is not TOOL]
+        first = self.scopes.home(declared[0])
         for module in sorted(self.scopes.program.modules, key=lambda one: one is not first):
-            seen = [(self.scopes.module(module).value(frame.name), frame) for frame in frames.values()]
+            seen = [(self.scopes.module(module).value(frame.name), frame) for frame in declared]
             if all(found is not None and found.declaration is frame for found, frame in seen):
                 return module
         return None
@@ -256,32 +291,90 @@ class _Affixments:
         return replace(module, declarations=declarations, routines=(*routines, *procedures))
 
     def _in_routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
-        actions = {id(node.action) for node in walk(routine) if isinstance(node, ir.Trigger | ir.DeclareInterrupt)}
+        nodes = list(walk(routine))
+        actions = {id(node.action) for node in nodes if isinstance(node, ir.Trigger | ir.DeclareInterrupt)}
+        inside = {id(one) for node in nodes if isinstance(node, ir.Spline) for one in node.body}
 
         def change(node: object) -> object:
             if not is_statement(node):
                 return node
             if self._stands_for(node):
                 return self._written_out(node.origin)
-            frames = list(self._changed(node, scope))
-            if not frames:
-                return node
-            if id(node) in actions or isinstance(node, (*_ENDS, *_BLOCKS)):
-                where = "an action of a trigger or interrupt" if id(node) in actions else _where(node)
-                self.diagnostics.report(UNSEEN_CHANGE, node.origin, name=frames[0].name, where=where)
-                return node
-            calls = tuple(ir.CallRoutine(self.moved[id(one)], origin=_quiet(node.origin)) for one in frames)
-            return (node, *calls)
+            known = "an action of a trigger or interrupt" if id(node) in actions else ""
+            before = () if id(node) in inside else self._up_to_date(node, scope, known)
+            behind = self._followed(node, scope, known)
+            return (*before, node, *behind) if before or behind else node
 
-        return rewrite(routine, change)
+        for declaration in routine.declarations:
+            self._report_held(declaration, scope, "a first value in a routine")
+        done = rewrite(routine, change)
+        released = [pair for pair in self.released.get(id(routine), ()) if pair in self.meant.values()]
+        if not released:
+            return done
+        quiet = _quiet(routine.origin)
+        loose = [one for pair in released for one in pair.unfix(quiet, quiet)]
+        return replace(done, body=(self._call(TOOL, quiet), *loose, *done.body))
+
+    def _call(self, frame: ir.Variable, origin: Origin) -> ir.CallRoutine:
+        return ir.CallRoutine(self.moved[id(frame)], origin=_quiet(origin))
+
+    def _followed(self, statement: ir.Statement, scope: Scope, known: str) -> tuple[ir.Statement, ...]:
+        """The calls that a change of frames asks for. known: what the statement is part of where none can follow."""
+        frames = list(self._changed(statement, scope))
+        if frames and (known or isinstance(statement, (*_ENDS, *_BLOCKS))):
+            where = known or _where(statement)
+            self.diagnostics.report(UNSEEN_CHANGE, statement.origin, name=frames[0].name, where=where)
+            return ()
+        return tuple(self._call(frame, statement.origin) for frame in frames)
+
+    def _up_to_date(self, statement: ir.Statement, scope: Scope, known: str) -> tuple[ir.Statement, ...]:
+        """The call in front of what looks at a frame that the tool can carry, or changes one beside it."""
+        if not self.carried:
+            return ()
+        if known or isinstance(statement, _AGAIN):
+            self._report_held(statement, scope, known or "a condition that is looked at again and again")
+            return ()
+        looks = any(id(frame) in self.carried for frame in self._read(statement, scope))
+        if looks or any(id(frame) in self.with_tool for frame in self._changed(statement, scope)):
+            return (self._call(TOOL, statement.origin),)
+        return ()
+
+    def _report_held(self, node: ir.Statement | ir.Declaration, scope: Scope, where: str) -> None:
+        frame = next((one for one in self._read(node, scope) if id(one) in self.carried), None)
+        if frame is not None:
+            self.diagnostics.report(HELD, node.origin, name=frame.name, where=where)
+
+    def _read(self, node: ir.Statement | ir.Declaration, scope: Scope) -> Iterator[ir.Variable]:
+        """The variables that a statement itself looks at: not those that it gives a whole new value. What stands in a
+        spline block belongs to it."""
+        stack: list[object] = [node]
+        while stack:
+            part = stack.pop()
+            if isinstance(part, ir.Name):
+                found = scope.value(part.id)
+                if found is not None and isinstance(found.declaration, ir.Variable):
+                    yield found.declaration
+            target = part.target if isinstance(part, ir.Assign) else None
+            stack.extend(
+                child
+                for child in children(part)
+                if not (child is target and isinstance(child, ir.Name))
+                and (not is_statement(child) or isinstance(node, ir.Spline))
+            )
 
     def _written_out(self, origin: Origin) -> ir.Statement | tuple[ir.Statement, ...]:
         statement, pair = self.statements[_key(origin)], self.meant.get(_key(origin))
         if pair is None:
             return ir.Opaque(statement.origin.text, origin=origin)
+        done: list[ir.Statement] = []
+        if statement.gripper:
+            done.append(ir.CallRoutine(f"close_{statement.gripper}", origin=origin))
+        if {id(pair.child), id(pair.parent)} & self.with_tool:
+            done.append(self._call(TOOL, origin))
+        first = _quiet(origin) if statement.gripper else origin
         if statement.kind == "unfix":
-            return pair.unfix(origin, _quiet(origin))
-        return pair.affix(statement.kind == "rigidly", origin, _quiet(origin))
+            return (*done, *pair.unfix(first, _quiet(origin)))
+        return (*done, *pair.affix(statement.kind == "rigidly", first, _quiet(origin)))
 
     def _changed(self, statement: ir.Statement, scope: Scope) -> Iterator[ir.Variable]:
         """The frames of affixments that a statement itself changes, each once, without those that its blocks change."""

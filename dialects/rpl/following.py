@@ -15,6 +15,8 @@ from rpl import ir
 from rpl.source import Origin
 
 MOST_STEPS = 200
+# What a part that is held is affixed to: no variable, but where the tool centre point is when it is asked for.
+TOOL = ir.Variable("tool", ir.PoseType())
 
 
 @dataclass(slots=True)
@@ -66,21 +68,19 @@ class Pair:
 
     def retake(self, origin: Origin) -> ir.Assign:
         """The relative pose as the two frames stand."""
-        value = ir.Binary(
-            ":", _inverse(self.parent.name, origin), ir.Name(self.child.name, origin=origin), origin=origin
-        )
+        back = ir.Builtin("inverse", (_where_is(self.parent, origin),), origin=origin)
+        value = ir.Binary(":", back, ir.Name(self.child.name, origin=origin), origin=origin)
         return ir.Assign(ir.Name(self.relative, origin=origin), value, origin=origin)
 
     def child_moves(self, origin: Origin) -> ir.Assign:
         """The child goes with the parent."""
-        parent, relative = ir.Name(self.parent.name, origin=origin), ir.Name(self.relative, origin=origin)
-        return _place(self.child.name, parent, relative, origin)
+        relative = ir.Name(self.relative, origin=origin)
+        return _place(self.child.name, _where_is(self.parent, origin), relative, origin)
 
     def parent_moves(self, origin: Origin) -> ir.Assign:
         """The parent goes with the child."""
-        return _place(
-            self.parent.name, ir.Name(self.child.name, origin=origin), _inverse(self.relative, origin), origin
-        )
+        back = ir.Builtin("inverse", (ir.Name(self.relative, origin=origin),), origin=origin)
+        return _place(self.parent.name, ir.Name(self.child.name, origin=origin), back, origin)
 
     def alone(self, origin: Origin) -> ir.Expression:
         """Whether the child follows and does not lead."""
@@ -96,8 +96,10 @@ def _set(flag: str, value: bool, origin: Origin) -> ir.Assign:
     return ir.Assign(ir.Name(flag, origin=origin), ir.BoolLiteral(value, origin=origin), origin=origin)
 
 
-def _inverse(name: str, origin: Origin) -> ir.Expression:
-    return ir.Builtin("inverse", (ir.Name(name, origin=origin),), origin=origin)
+def _where_is(frame: ir.Variable, origin: Origin) -> ir.Expression:
+    if frame is TOOL:
+        return ir.Builtin("current_target", (), origin=origin)
+    return ir.Name(frame.name, origin=origin)
 
 
 def _place(frame: str, base: ir.Expression, offset: ir.Expression, origin: Origin) -> ir.Assign:
@@ -110,6 +112,7 @@ class Following:
 
     pairs: Sequence[Pair]
     steps: int = 0
+    frames: dict[int, ir.Variable] = field(default_factory=dict)  # those that it places
     _reached: set[tuple[int, int]] = field(default_factory=set)  # pair, frame that was reached by it
 
     def body(self, frame: ir.Variable) -> ir.Body:
@@ -129,6 +132,7 @@ class Following:
             if any(one is other for one in way) or self.steps > MOST_STEPS:
                 continue
             self.steps += 1
+            self.frames[id(other)] = other
             self._reached.add((id(pair), id(other)))
             inner = (step(pair.origin), *self._moved(other, (*way, other)))
             done.append(ir.If(((ir.Name(asked, origin=pair.origin), inner),), origin=pair.origin))

@@ -65,7 +65,7 @@ def read(sources: Sequence[Source], diagnostics: Diagnostics) -> ReadResult:
     _report_replaced(modules, tasks, entry, places, diagnostics)
     program = ir.Program(tuple(modules), tuple(tasks), entry)
     hanging = [(name, origin) for name, _, origin in affixed]
-    program = affix(with_affixments(program, affixing, hanging, diagnostics), affixed, diagnostics)
+    program = with_affixments(affix(program, affixed, diagnostics), affixing, hanging, diagnostics)
     modules = [with_signal_parameters(module) for module in program.modules]
     return ReadResult(replace(program, modules=tuple(modules)), tuple(files))
 

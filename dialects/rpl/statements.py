@@ -66,8 +66,8 @@ def _call_by_name(tree: SyntaxTree, at: Reading) -> ir.Statement:
     return ir.CallRoutine(name, given, expression(parts[0], at), origin=at.origin)
 
 
-def _gripper_call(prefix: str) -> Lowering:
-    return lambda tree, at: ir.CallRoutine(prefix + names(tree)[0], origin=at.origin)
+def _open_gripper(tree: SyntaxTree, at: Reading) -> ir.Statement:
+    return ir.CallRoutine(f"open_{names(tree)[0]}", origin=at.origin)
 
 
 def _affix(tree: SyntaxTree, at: Reading) -> ir.Statement:
@@ -80,8 +80,20 @@ def _unfix(tree: SyntaxTree, at: Reading) -> ir.Statement:
 
 def _affixing(kind: str, tree: SyntaxTree, at: Reading) -> ir.Statement:
     child, parent = trees(tree)
-    at.affixing.append(Affixing(kind, expression(child, at), expression(parent, at), at.origin))
-    return at.affixing[-1].stand_in
+    tool = parent.data == "name" and any(token.lower() == "tool" for token in tokens(parent, "NAME"))
+    return _taken(Affixing(kind, expression(child, at), None if tool else expression(parent, at), at.origin), at)
+
+
+def _taken(affixing: Affixing, at: Reading) -> ir.Statement:
+    at.affixing.append(affixing)
+    return affixing.stand_in
+
+
+def _close_gripper(tree: SyntaxTree, at: Reading) -> ir.Statement:
+    name, part = names(tree)[0], next(trees(tree), None)
+    if part is None:
+        return ir.CallRoutine(f"close_{name}", origin=at.origin)
+    return _taken(Affixing("affix", expression(part, at), None, at.origin, name), at)
 
 
 def _set_after(tree: SyntaxTree, at: Reading) -> ir.Statement:
@@ -298,8 +310,8 @@ ACTIONS: dict[str, Lowering] = {"assign": _assign, "set": _set, "call": _call, "
 
 STATEMENTS: dict[str, Lowering] = {
     **ACTIONS,
-    "open_gripper": _gripper_call("open_"),
-    "close_gripper": _gripper_call("close_"),
+    "open_gripper": _open_gripper,
+    "close_gripper": _close_gripper,
     "affix": _affix,
     "unfix": _unfix,
     "set_after": _set_after,

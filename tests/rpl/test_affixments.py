@@ -112,6 +112,7 @@ def test_relative_poses_are_kept(acts: list[tuple[object, ...]]) -> None:
 
 TABLE = "FRAME part = {x: 0, y: 0, z: 0, a: 0, b: 0, c: 0}\nFRAME hand = {x: 0, y: 0, z: 9, a: 0, b: 0, c: 0}\n"
 HANGING = "FRAME hole = {x: 0, y: 0, z: 0, a: 0, b: 0, c: 0} ON part\n"
+TAKE = "AFFIX part TO TOOL\n"
 HOLD = "AFFIX part TO hand\n"
 BY_REFERENCE = "FUNCTION push(REFERENCE p: POSE): BOOL\np.x = 1\nRETURN TRUE\nEND FUNCTION\n"
 
@@ -171,6 +172,17 @@ BY_REFERENCE = "FUNCTION push(REFERENCE p: POSE): BOOL\np.x = 1\nRETURN TRUE\nEN
             4,
             "another task has it by REFERENCE",
         ),
+        (TABLE + "AFFIX part TO TOOL RIGIDLY", "affix-not-a-frame", 3, "a robot is moved by MOVE"),
+        (TABLE + "UNFIX part FROM TOOL", "unfix-not-affixed", 3, "AFFIX part TO tool"),
+        (TABLE + TAKE + "WHILE part.x < 5\nNOTHING\nEND WHILE", "held-part-read-here", 4, "again and again"),
+        (TABLE + TAKE + "WAIT UNTIL part.x > 5", "held-part-read-here", 4, "again and again"),
+        (TABLE + TAKE + "MOVE TO hand TRIGGER AT end DO hand = part", "held-part-read-here", 4, "an action"),
+        (
+            TABLE + TAKE + "PROCEDURE p()\nVAR q: POSE = part\nEND PROCEDURE",
+            "held-part-read-here",
+            5,
+            "a first value in a routine",
+        ),
     ],
 )
 def test_what_is_reported(text: str, code: str, line: int, words: str) -> None:
@@ -197,6 +209,24 @@ def test_modules_that_see_them_move_them() -> None:
     assert found == []
     result = run_program(program, None, None, "main", 10.0)
     assert [event.data["value"] for event in result.trace if event.kind == "output"] == [True]
+
+
+def test_a_variable_of_the_name_tool_is_meant_in_backticks() -> None:
+    text = "VAR `tool`: POSE = {x: 0, y: 0, z: 0, a: 0, b: 0, c: 0}\n" + TABLE + "AFFIX part TO `tool`\ntool.x = 5\n"
+    program, found = read(text + "IF part.x = 5 THEN SET do[1] TO ON\n")
+    assert found == []
+    result = run_program(program, None, None, "main", 10.0)
+    assert [event.data["value"] for event in result.trace if event.kind == "output"] == [True]
+
+
+def test_a_gripper_of_another_module_lets_go() -> None:
+    hand = "MODULE hands\nGLOBAL GRIPPER hand = do[1]\nEND MODULE\n".replace("GLOBAL GRIPPER", "GRIPPER")
+    work = f"MODULE work\n{TABLE}PROCEDURE main()\nMOVE TO joints {{j1: 0, j2: -90, j3: 90, j4: 0, j5: 90, j6: 0}}\n"
+    work += "CLOSE hand ON part\nMOVE BY {j1: 10} IN JOINTS\nOPEN hand\nMOVE BY {j1: 10} IN JOINTS\n"
+    program, found = read(hand, work + "IF part.y > 1 THEN SET do[2] TO ON\nEND PROCEDURE\nEND MODULE\n")
+    assert found == []
+    scopes = {node.name: node.scope for module in program.modules for node in module.declarations}
+    assert scopes["part_follows_tool"] == "global" and scopes["part"] == "module"
 
 
 def test_names_that_are_taken_are_left_alone() -> None:
