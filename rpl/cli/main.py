@@ -35,7 +35,7 @@ COMMANDS = {
     "merge": "Bring two changed versions of a program together.",
     "translate": "Write programs in another controller's language.",
     "run": "Run a program on an emulated robot.",
-    "view": "See a run of a cell: a page that plays it from disk.",
+    "view": "See a run of a cell in a browser, or as a page that plays it.",
     "batch": "Check, run or translate every project of a plant's archive.",
     "fit": "Adjust the motion parameters of a controller to a recorded log.",
     "prove": "Decide by running both whether two programs mean the same.",

@@ -1,15 +1,18 @@
-"""`rpl view`: see a run of a cell, as a page that plays from disk."""
+"""`rpl view`: see a run of a cell, in a browser, as a page that plays from disk, or as a picture."""
 
 from __future__ import annotations
 
+import sys
+import webbrowser
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from rpl.cli.cells import BodiesAsked, CellAsked, loaded_robots
-from rpl.cli.files import force_option, refuse_others
+from rpl.cli.files import force_option, refuse_others, write_files
 from rpl.cli.limits import limit_options, limits_of
 from rpl.cli.output import (
     arm_of,
@@ -32,6 +35,7 @@ from rpl.view.camera import VIEWS
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
+    from rpl.project import ReadProgram
     from rpl.workcell.record import CellRun
 
 
@@ -57,6 +61,11 @@ if TYPE_CHECKING:
 @click.option(
     "--side", type=click.Choice(tuple(VIEWS)), default="isometric", help="Where the picture is taken from (isometric)."
 )
+@click.option("--port", type=click.IntRange(0, 65535), default=8087, metavar="P", help="Port of the live view (8087).")
+@click.option(
+    "--host", default="127.0.0.1", metavar="ADDRESS", help="Where the live view listens (127.0.0.1: this machine only)."
+)
+@click.option("--no-browser", is_flag=True, help="Do not open a browser; say the address only.")
 @limit_options
 @force_option
 @verbose_option
@@ -71,6 +80,9 @@ def command(
     picture: Path | None,
     at_s: float | None,
     side: str,
+    port: int,
+    host: str,
+    no_browser: bool,
     max_time: float | None,
     max_steps: int | None,
     max_events: int | None,
@@ -78,19 +90,22 @@ def command(
 ) -> int:
     """See a program run in its cell: arms, tools, parts, path, signals and lines over time.
 
-    Exit status 0 when the page is written, whatever the run came to; 1 for a program with errors.
+    In a browser, where the arm can be taken by the hand and points can be taught, until Ctrl-C; with --save or
+    --picture as a file. Exit status 0 when the file is written, whatever the run came to; 1 for a program with errors.
     """
-    if save is None and picture is None:
-        raise UsageError("where to? --save F.html writes a page, --picture F.png a picture")
     if at_s is not None and picture is None:
         raise UsageError("--at is the time of --picture F.png")
     robots_exist(robot)
     refuse_others([path for path in (save, picture) if path is not None])
     limits = limits_of(max_time, max_steps, max_events)
     robots = (robot,) if robot is not None else ()
-    run = _run(CellAsked(paths, dialect, robots, entry, limits, None, False, BodiesAsked(), as_json), cell)
-    if run is None:
+    asked = CellAsked(paths, dialect, robots, entry, limits, None, False, BodiesAsked(), as_json)
+    if save is None and picture is None:
+        return _live(asked, cell, host, port, not no_browser)
+    found = _run(asked, cell)
+    if found is None:
         return 1
+    run = found.run
     with waiting("drawing"):
         files = _drawn(run, save, picture, run.time_s if at_s is None else at_s, side)
     for path, data in files.items():
@@ -122,7 +137,58 @@ def _drawn(run: CellRun, save: Path | None, picture: Path | None, at_s: float, s
     return files
 
 
-def _run(asked: CellAsked, cell: str | None) -> CellRun | None:
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """A run, and what was read for each of its robots."""
+
+    run: CellRun
+    reads: tuple[ReadProgram, ...]
+
+
+def _live(asked: CellAsked, cell: str | None, host: str, port: int, browser: bool) -> int:
+    """Show it in a browser until Ctrl-C."""
+    from importlib.util import find_spec
+
+    from rpl.view.live import MISSING, Live
+    from rpl.view.scene import scene_of
+    from rpl.view.screen import Loaded, Screen
+
+    if find_spec("viser") is None:
+        raise UsageError(MISSING)
+
+    def again() -> Loaded:
+        found = _run(asked, cell)
+        if found is None:
+            raise UsageError("the program has errors now, and is shown as it was")
+        return Loaded(scene_of(found.run), found.reads)
+
+    found = _run(asked, cell)
+    if found is None:
+        return 1
+    screen = Screen(Loaded(scene_of(found.run), found.reads), again, _overwrite)
+    live = Live(screen, host, port, _title(found.run))
+    if asked.as_json:
+        print_json({"status": found.run.status, "time_s": round(found.run.time_s, 6), "address": live.address})
+    else:
+        say(f"{live.address} shows it; Ctrl-C ends")
+    sys.stdout.flush()
+    if browser:
+        webbrowser.open(live.address)
+    try:
+        live.serve()
+    except KeyboardInterrupt:
+        say()
+    finally:
+        live.stop()
+    return 0
+
+
+def _overwrite(path: Path, data: bytes) -> None:
+    """A program in which a point was taught: who presses the button means it."""
+    write_files({path: data}, [path])
+
+
+def _run(asked: CellAsked, cell: str | None) -> _Found | None:
     """The run; None for a program with errors, which are said."""
     from rpl.proof.prove import load_cell
 
@@ -137,10 +203,11 @@ def _run(asked: CellAsked, cell: str | None) -> CellRun | None:
     if loaded is None:
         return None
     with waiting("running"):
-        return run_cell(surroundings, [one.driven for one in loaded], asked.limits)
+        run = run_cell(surroundings, [one.driven for one in loaded], asked.limits)
+    return _Found(run, tuple(one.read for one in loaded))
 
 
-def _alone(asked: CellAsked, surroundings: Cell | None) -> CellRun | None:
+def _alone(asked: CellAsked, surroundings: Cell | None) -> _Found | None:
     """A run of one robot without bodies around it."""
     from rpl.cell.layout import Layout, RobotPlace
     from rpl.simulation import run_program
@@ -160,7 +227,8 @@ def _alone(asked: CellAsked, surroundings: Cell | None) -> CellRun | None:
     place = RobotPlace(arm=model.name if model is not None else "", programs=tuple(asked.paths))
     fault = f"{result.fault.origin.place}{result.fault.message}" if result.fault is not None else ""
     robots = (RobotRun(place, model, read.program, result),)
-    return CellRun(Layout(robots=(place,)), robots, status=result.status, time_s=result.time_s, fault=fault)
+    run = CellRun(Layout(robots=(place,)), robots, status=result.status, time_s=result.time_s, fault=fault)
+    return _Found(run, (read,))
 
 
 def _title(run: CellRun) -> str:

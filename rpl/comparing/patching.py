@@ -86,6 +86,44 @@ def with_points(read: ReadProgram, points: Mapping[str, Components]) -> tuple[So
     return tuple(sources.values())
 
 
+def with_new_point(read: ReadProgram, name: str, components: Components) -> tuple[Source, ...]:
+    """The sources of a project with one more point, in a line of its own below that of another point, which it is
+    written like.
+
+    Raises UsageError where the name is none or is taken, SourceError where no point of the project is written in one
+    line with numbers that say these components.
+    """
+    if re.fullmatch(r"[A-Za-z]\w{0,30}", name) is None:
+        raise UsageError(f"{name!r} is no name for a point: a letter, then letters, digits and underscores")
+    places = _places(read)
+    if name.lower() in places:
+        raise UsageError(f"there is a point {name} already")
+    for other in {id(some[-1]): some[-1] for some in places.values()}.values():
+        origin = other.origin
+        source = origin.source
+        if source is None or "\n" in origin.text or not components.keys() <= _said(other):
+            continue
+        starts = source.line_starts()
+        begin = starts[origin.line - 1]
+        end = starts[origin.line] if origin.line < len(starts) else len(source.text)
+        line = source.text[begin:end]
+        copied, count = re.subn(rf"(?i)(?<!\w){re.escape(other.name)}(?!\w)", name, line)
+        if count != 1 or not line.endswith(("\n", "\r")):
+            continue
+        new = edited(source, [_Edit(end, end, copied)])
+        diagnostics = Diagnostics()
+        again = read_sources([new if one is source else one for one in read.sources], read.dialects[0], diagnostics)
+        if not diagnostics.has_errors and name.lower() in _places(again):
+            return with_points(again, {name: components})
+    raise SourceError(f"no point is written in one line that {name} could be written like")
+
+
+def _said(place: _Place) -> set[str]:
+    """The components that a literal says as numbers; angles also as a quaternion or a rotation vector."""
+    found = {leaf.component for leaf in _leaves(place.literal, place.scope)}
+    return found | set(ir.ANGLES) if found >= set(_QUATERNION) or found >= set(_VECTOR) else found
+
+
 def _one_by_one(read: ReadProgram, place: _Place, components: Components) -> list[_Edit]:
     """The edits of a point alone, tried one after the other. Raises SourceError where none does what is meant."""
     for edits in _tries(place, components):
