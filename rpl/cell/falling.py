@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rpl.cell.layout import Fixture, Part
 from rpl.cell.shapes import Facets, Shape, moved
@@ -274,17 +275,28 @@ def _beside(part: Part, stop: Stop, obstacles: Sequence[Obstacle]) -> Stop | Non
     )
     tops = np.where(apart.any(axis=2), -math.inf, highest[None, :, 2]).max(axis=1)
     bins = [one.fixture for one in obstacles if one.fixture is not None and one.fixture.inside is not None]
-    floor = next((one for one in bins if np.allclose(_kept_in(part, stop.pose, one), stop.pose)), None)
-    for number in np.argsort(tops, kind="stable"):
+    floor = next((one for one in bins if _fits_in(corners, one, np.zeros((1, 2)))[0]), None)
+    fitting = _fits_in(corners, floor, places) if floor is not None else np.ones(len(places), dtype=bool)
+    for number in np.argsort(np.where(fitting, tops, math.inf), kind="stable"):
+        if not fitting[number] or tops[number] >= low[2] - SET_DOWN_MM:
+            break
         there = _sunk(stop.pose, -float(high[2] - low[2]))
         there[:2, 3] += places[number]
         under = below(part.shape, there, obstacles)
-        if under is None:
-            continue
-        lower = _sunk(there, under.gap_mm)
-        if np.allclose(_kept_in(part, lower, floor), lower) and lower[2, 3] < stop.pose[2, 3]:
-            return Stop(stop.after_s + 0.1, lower, under.obstacle.name)
+        if under is not None:
+            return Stop(stop.after_s + 0.1, _sunk(there, under.gap_mm), under.obstacle.name)
     return None
+
+
+def _fits_in(corners: FloatArray, bin_: Fixture, places: FloatArray) -> NDArray[np.bool_]:
+    """Is a part of these corners (n, 3) within the walls of a bin when it is moved by each of places (k, 2)?"""
+    assert bin_.inside is not None
+    back = np.linalg.inv(bin_.floor)
+    here = moved(corners, back)
+    ways = places @ back[:2, :2].T
+    half = np.array(bin_.inside[:2]) / 2.0 + 1e-6
+    low, high = here.min(axis=0)[:2] + ways, here.max(axis=0)[:2] + ways
+    return np.asarray(((low >= -half) & (high <= half)).all(axis=1))
 
 
 def _rings(step: float) -> FloatArray:

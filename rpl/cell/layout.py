@@ -93,7 +93,8 @@ class Fixture:
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
     """What can be moved. `at`: where its frame is at the start; `restitution` of its material, `mass_kg` None: not
-    weighed. `again_s`: where a feeder brings it, how long after its place has become free."""
+    weighed. `again_s`: where a feeder brings it, how long after the one before it was taken; `comes_s`: when it comes
+    where that is known."""
 
     name: str
     shape: Shape
@@ -101,6 +102,7 @@ class Part:
     restitution: float = 0.3
     mass_kg: float | None = None
     again_s: float | None = None
+    comes_s: float = 0.0
     kind: str = ""  # the name that it shares with its copies
     key: str = ""
 

@@ -5,7 +5,8 @@
                   [opened]  [closed]  [time]  [opening = [0, 80]]  [reach]  [misses = [2]]  [chance_of_miss]
     [[fixture]]   name = "table"  FORM  [at]  [restitution]      or bodies = [{ FORM, at = [...] }, ...]
     [[bin]]       name = "bin"  inside = [300, 200, 120]  [wall]  [at]  [restitution]
-    [[part]]      name = "cube"  FORM  [at]  [mass]  [restitution]  [copies = 12]  [step = [0, 0, 40]]  [again = 0.5]
+    [[part]]      name = "cube"  FORM  [at]  [mass]  [restitution]  [copies = 12] with one of
+                  [step = [0, 0, 40]]  [every = 1.0]  [again = 0.5]
     [[sensor]]    name = "seat"  signal = "di4"  FORM  [at]  [robot]  [parts = ["cube"]]
     [[wire]]      from = "left.do5"  to = "right.di2"
     [[removal]]   when = "do6"  fixture = "pallet"  [after = 1.0]  [robot]
@@ -266,23 +267,26 @@ class LayoutReader(RowReader):
 
     def part(self, key: str, row: dict[str, Value]) -> Iterator[Part]:
         """The part and its copies: `cube`, `cube#2`, ..."""
-        self.known(key, row, ("name",), (*_FORM_KEYS, "at", "mass", "restitution", "copies", "step", "again"))
+        self.known(key, row, ("name",), (*_FORM_KEYS, "at", "mass", "restitution", "copies", "step", "again", "every"))
         shape, at, name = self.form(key, row), self.pose(key, row), self.name(key, row)
         copies = row.get("copies", 1)
         if type(copies) is not int or not 1 <= copies <= _MOST_COPIES:
             raise self.wrong(f"{key}.copies", f"must be a whole number from 1 to {_MOST_COPIES:,}")
         again = self.seconds(key, row, "again") if "again" in row else None
         step = np.array(self.numbers(f"{key}.step", row.get("step", [0.0, 0.0, 0.0]), 3))
-        if again is not None and "step" in row:
-            raise self.wrong(f"{key}.step", "is for parts that are all there at the start; with `again` they come")
-        if copies > 1 and again is None and not step.any():
-            raise self.wrong(f"{key}.copies", "stand in each other: give `step = [x, y, z]`, or `again = s`")
+        every = self.seconds(key, row, "every") if "every" in row else None
+        ways = [name for name in ("step", "again", "every") if name in row]
+        if len(ways) > 1:
+            raise self.wrong(f"{key}.{ways[1]}", "copies stand apart (step), come one after the other (every) or again")
+        if copies > 1 and not ways:
+            raise self.wrong(f"{key}.copies", "stand in each other: give step = [x, y, z], every = s or again = s")
         mass = self.number(key, row, "mass", 0.0) if "mass" in row else None
         for number in range(copies):
             place = at.copy()
             place[:3, 3] += number * step
             called = name if number == 0 else f"{name}#{number + 1}"
-            yield Part(called, shape, place, self.restitution(key, row), mass, again, name, key)
+            comes = number * every if every is not None else 0.0
+            yield Part(called, shape, place, self.restitution(key, row), mass, again, comes, name, key)
 
     def sensor(self, key: str, row: dict[str, Value]) -> Sensor:
         self.known(key, row, ("name", "signal"), (*_FORM_KEYS, "at", "robot", "parts"))

@@ -93,7 +93,7 @@ class World:
         """Every part that is there at the start settles on what is below it."""
         firsts = set()
         for part in self.layout.parts:
-            if part.again_s is not None and part.kind in firsts:
+            if part.kind in firsts and (part.again_s is not None or part.comes_s > 0.0):
                 self.to_come.append(part)
                 continue
             firsts.add(part.kind)
@@ -125,8 +125,20 @@ class World:
             if self._robot_of(sensor.robot) == robot and self._sees(sensor, 0.0):
                 self.seen[sensor.name] = True
                 mover.input_later(0.0, sensor.signal, True)
-        for part in {each.since for each in self.there.values() if each.since > 0.0}:
-            mover.deed_later(part, "look")
+        for since in {each.since for each in self.there.values() if each.since > 0.0}:
+            mover.deed_later(since, "look")
+        if len(self.movers) == 1:
+            for part in self.to_come:
+                if part.again_s is None:
+                    mover.deed_later(part.comes_s, f"come {part.name}")
+
+    def settle_alone(self) -> float:
+        """Without robots: let all parts come; the time (s) at which the last one rests."""
+        for part in sorted(self.to_come, key=lambda one: one.comes_s):
+            if part.again_s is None:
+                self.to_come.remove(part)
+                self._fall(part, part.at, part.comes_s)
+        return max((at.since for at in self.there.values()), default=0.0)
 
     def switches(self, robot: str) -> Iterator[tuple[Switch, str]]:
         """The outputs of a robot that do something to bodies, and what: told to `happen` when they switch."""
@@ -287,14 +299,16 @@ class World:
         """Those of feeders whose place is free, each feeder's next one."""
         for kind in dict.fromkeys(one.kind for one in self.to_come):
             part = next(one for one in self.to_come if one.kind == kind)
-            due = max((one.t for one in self.placed if one.state == "held" and self._kind(one.part) == kind), default=0)
-            if now < due + (part.again_s or 0.0) - 1e-9 or self._is_taken(part):
+            if now < self._due(part) - 1e-9 or (part.again_s is not None and self._is_taken(part)):
                 continue
             self.to_come.remove(part)
             self._fall(part, part.at, now)
 
-    def _kind(self, name: str) -> str:
-        return self._by_name[name].kind
+    def _due(self, part: Part) -> float:
+        if part.again_s is None:
+            return part.comes_s
+        taken = [one.t for one in self.placed if one.state == "held" and self._by_name[one.part].kind == part.kind]
+        return max(taken, default=0.0) + part.again_s
 
     def _is_taken(self, part: Part) -> bool:
         """Does another part lie, or hang, where this one is to come?"""

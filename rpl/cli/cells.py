@@ -136,8 +136,8 @@ def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
         found: tuple[Loaded, ...] = (
             Loaded(Driven(place, program, model, asked.entry, asked.controller, others), read),
         )
-    elif robots:
-        found = robots_of(cell, diagnostics)
+    elif robots or not cell.layout.grippers:
+        found = robots_of(cell, diagnostics)  # without any the parts fall, and that is all
     else:
         raise UsageError("no program: name its PATH, or give the robots of the cell file `programs`")
     print_diagnostics(diagnostics, Severity.WARNING)

@@ -60,6 +60,10 @@ def _run(
     cell: Cell, driven: Sequence[Driven], limits: Limits, on_event: Callable[[str, Event], None] | None
 ) -> CellRun:
     world = World(cell.layout, cell.seed)
+    if not driven:
+        time = world.settle_alone()
+        placed = tuple(sorted(world.placed, key=lambda one: one.t))
+        return CellRun(cell.layout, (), placed, status="finished", time_s=time)
     machines = {one.place.name: _machine(cell, one, world, limits, on_event) for one in driven}
     try:
         _until_the_end(machines)
