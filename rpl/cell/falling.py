@@ -5,8 +5,8 @@ to at most a distance that grows with the energy of its fall; what it falls on n
 part. How it lies in the end is one of the stable states of its form. These are the rules of the textbook's system
 (Craig, Introduction to Robotics, ch. 13): not dynamics but their outcome, drawn from the seed of the cell.
 
-Heights are looked for along verticals: below the corners, edges and faces of the part, and above the corners of what is
-under it. Two edges that cross between these are missed by at most the distance of two points of an edge.
+The height of one body above another is exact for facets: it is least where a corner is over a face, a face over a
+corner, or an edge over an edge.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from rpl.cell.layout import Fixture, Part
 from rpl.cell.shapes import Facets, Shape, moved
-from rpl.emulator.rotations import FloatArray, quaternion_to_matrix, rotation_z
+from rpl.emulator.rotations import FloatArray, invert_pose, quaternion_to_matrix, rotation_z
 
 GRAVITY_MM_S2 = 9806.65
 # How deep a part may be pressed into what it stands on, as programs do that place it.
@@ -32,7 +32,9 @@ SET_DOWN_MM = 1.0
 _LEAST_BOUNCE_MM = 1.0
 _MOST_BOUNCES = 12
 _MOST_RINGS = 16
-_ALONG_EDGES = (0.25, 0.5, 0.75)
+_SKIN_MM = 0.01
+_UPRIGHT_MM = 1e-6
+_MOST_PAIRS = 1_000_000  # of edges that are crossed at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +53,19 @@ class Obstacle:
         return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
     @cached_property
-    def probes(self) -> FloatArray:
-        """See `_probes`."""
-        return _probes(self.triangles)
+    def points(self) -> FloatArray:
+        """Its corners (k, 3), each once."""
+        return np.unique(np.round(self.triangles.reshape(-1, 3), 6), axis=0)
+
+    @cached_property
+    def edges(self) -> FloatArray:
+        """Both ends of its edges (k, 2, 3), each edge once, without those that are upright."""
+        ends = np.concatenate([self.triangles[:, [0, 1]], self.triangles[:, [1, 2]], self.triangles[:, [2, 0]]])
+        ends = np.round(ends, 6)
+        swapped = ends[:, ::-1]
+        ordered = np.where(_before(ends[:, 0], ends[:, 1])[:, None, None], ends, swapped)
+        single = np.unique(ordered.reshape(-1, 6), axis=0).reshape(-1, 2, 3)
+        return np.asarray(single[np.abs(single[:, 1, :2] - single[:, 0, :2]).max(axis=1) > _UPRIGHT_MM])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,7 +111,7 @@ class Below:
 
 def below(shape: Shape, pose: FloatArray, obstacles: Sequence[Obstacle]) -> Below | None:
     """The first thing that a part meets which sinks from a pose (4, 4); None where nothing is under it."""
-    own = Obstacle("", triangles_at(shape.facets, pose), 0.0)
+    own = Obstacle("", _narrowed(triangles_at(shape.facets, pose)), 0.0)
     low, high = own.bounds
     best: Below | None = None
     for one in obstacles:
@@ -108,19 +120,56 @@ def below(shape: Shape, pose: FloatArray, obstacles: Sequence[Obstacle]) -> Belo
             continue
         if best is not None and low[2] - most[2] > best.gap_mm:
             continue
-        gap = min(_gap(own.probes, one.triangles, 1.0), _gap(one.probes, own.triangles, -1.0))
+        gap = min(_gap(own.points, one.triangles, 1.0), _gap(one.points, own.triangles, -1.0), _crossed(own, one))
         if gap < math.inf and (best is None or gap < best.gap_mm):
             best = Below(gap, one)
     return best
 
 
-def _probes(triangles: FloatArray) -> FloatArray:
-    """Points (k, 3) of triangles: corners, on edges, and the middles of faces."""
-    following = np.roll(triangles, -1, axis=1)
-    on_edges = [triangles + share * (following - triangles) for share in _ALONG_EDGES]
-    points = np.concatenate([triangles.reshape(-1, 3), *(one.reshape(-1, 3) for one in on_edges)])
-    points = np.concatenate([points, triangles.mean(axis=1)])
-    return np.unique(np.round(points, 6), axis=0)
+def _narrowed(triangles: FloatArray) -> FloatArray:
+    """A part without the skin of its sides: what it touches there is not below it."""
+    corners = triangles.reshape(-1, 3)
+    low, high = corners.min(axis=0)[:2], corners.max(axis=0)[:2]
+    thin = triangles.copy()
+    thin[..., :2] = (low + high) / 2.0 + (thin[..., :2] - (low + high) / 2.0) * (1.0 - 2.0 * _SKIN_MM / (high - low))
+    return thin
+
+
+def _before(first: FloatArray, second: FloatArray) -> NDArray[np.bool_]:
+    """Which of points (k, 3) come before those of another list, by x, then y, then z."""
+    differs = first != second
+    axis = np.argmax(differs, axis=1)
+    rows = np.arange(len(first))
+    return np.asarray(first[rows, axis] < second[rows, axis])
+
+
+def _crossed(upper: Obstacle, lower: Obstacle) -> float:
+    """The least height of edges of one body over edges of another that they cross, seen from above."""
+    low = np.maximum(upper.bounds[0], lower.bounds[0])[:2]
+    high = np.minimum(upper.bounds[1], lower.bounds[1])[:2]
+    over, under = (_within(one.edges, low, high) for one in (upper, lower))
+    if not len(over) or not len(under):
+        return math.inf
+    size = max(_MOST_PAIRS // len(under), 1)
+    return min(_crossings(over[start : start + size], under) for start in range(0, len(over), size))
+
+
+def _within(edges: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    flat = edges[:, :, :2]
+    return np.asarray(edges[((flat.max(axis=1) >= low) & (flat.min(axis=1) <= high)).all(axis=1)])
+
+
+def _crossings(over: FloatArray, under: FloatArray) -> float:
+    p, r = over[:, None, 0], over[:, None, 1] - over[:, None, 0]
+    q, u = under[None, :, 0], under[None, :, 1] - under[None, :, 0]
+    across = r[..., 0] * u[..., 1] - r[..., 1] * u[..., 0]
+    inverse = 1.0 / np.where(np.abs(across) > 1e-9, across, np.inf)
+    x, y = q[..., 0] - p[..., 0], q[..., 1] - p[..., 1]
+    s = (x * u[..., 1] - y * u[..., 0]) * inverse
+    t = (x * r[..., 1] - y * r[..., 0]) * inverse
+    gaps = p[..., 2] + s * r[..., 2] - q[..., 2] - t * u[..., 2]
+    met = (inverse != 0.0) & (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0) & (gaps >= -PRESSED_MM)
+    return float(np.where(met, gaps, math.inf).min())
 
 
 def _gap(points: FloatArray, triangles: FloatArray, way: float) -> float:
@@ -159,7 +208,8 @@ def fall(
         return (Stop(0.0, _sunk(pose, under.gap_mm), under.obstacle.name),)
     stops: list[Stop] = []
     time, height = 0.0, under.gap_mm
-    here = _in_its_state(part, pose, height, chance)
+    holder = _bin_around(pose, obstacles)
+    here = _kept_in(part, _in_its_state(part, pose, height, chance), holder)
     reach = laws.scatter * height
     for _ in range(_MOST_BOUNCES):
         under = below(part.shape, here, obstacles)
@@ -172,7 +222,8 @@ def fall(
         if height < _LEAST_BOUNCE_MM:
             break
         time += math.sqrt(2.0 * height / GRAVITY_MM_S2)
-        here = _kept_in(part, _aside(here, height, reach, chance), under.obstacle.fixture)
+        there = _kept_in(part, _aside(here, height, reach, chance), holder)
+        here = there if _is_free(part.shape, there, obstacles) else _sunk(here, -height)
     return (*stops[:-1], _settled(part, stops[-1], obstacles, laws, chance))
 
 
@@ -194,6 +245,15 @@ def _aside(pose: FloatArray, height: float, reach: float, chance: random.Random)
     moved_[0, 3] += away * math.cos(way)
     moved_[1, 3] += away * math.sin(way)
     return moved_
+
+
+def _is_free(shape: Shape, pose: FloatArray, obstacles: Sequence[Obstacle]) -> bool:
+    """Does the part stand in nothing? Looked at from above everything."""
+    lift = max(float(one.bounds[1, 2]) for one in obstacles) - float(moved(shape.facets.vertices, pose)[:, 2].min())
+    if lift <= 0.0:
+        return True
+    under = below(shape, _sunk(pose, -lift), obstacles)
+    return under is None or under.gap_mm >= lift
 
 
 def _in_its_state(part: Part, pose: FloatArray, drop_mm: float, chance: random.Random) -> FloatArray:
@@ -231,11 +291,21 @@ def _yaw(held: FloatArray, lying: FloatArray) -> float:
     return math.atan2(float(apart[1, 0] - apart[0, 1]), float(apart[0, 0] + apart[1, 1]))
 
 
+def _bin_around(pose: FloatArray, obstacles: Sequence[Obstacle]) -> Fixture | None:
+    """The bin into which a part falls, or in which it is."""
+    for fixture in {id(one.fixture): one.fixture for one in obstacles}.values():
+        if fixture is not None and fixture.inside is not None:
+            x, y, _ = (invert_pose(fixture.floor) @ pose)[:3, 3]
+            if abs(x) <= fixture.inside[0] / 2.0 and abs(y) <= fixture.inside[1] / 2.0:
+                return fixture
+    return None
+
+
 def _kept_in(part: Part, pose: FloatArray, fixture: Fixture | None) -> FloatArray:
     """In a bin no part leaves its inside."""
     if fixture is None or fixture.inside is None:
         return pose
-    back = np.linalg.inv(fixture.floor) @ pose
+    back = invert_pose(fixture.floor) @ pose
     corners = moved(part.shape.facets.vertices, back)
     low, high = corners.min(axis=0), corners.max(axis=0)
     for axis in range(2):
@@ -274,8 +344,7 @@ def _beside(part: Part, stop: Stop, obstacles: Sequence[Obstacle]) -> Stop | Non
         high[None, None, :2] + places[:, None] <= lowest[None, :, :2] + 1e-6
     )
     tops = np.where(apart.any(axis=2), -math.inf, highest[None, :, 2]).max(axis=1)
-    bins = [one.fixture for one in obstacles if one.fixture is not None and one.fixture.inside is not None]
-    floor = next((one for one in bins if _fits_in(corners, one, np.zeros((1, 2)))[0]), None)
+    floor = _bin_around(stop.pose, obstacles)
     fitting = _fits_in(corners, floor, places) if floor is not None else np.ones(len(places), dtype=bool)
     for number in np.argsort(np.where(fitting, tops, math.inf), kind="stable"):
         if not fitting[number] or tops[number] >= low[2] - SET_DOWN_MM:
@@ -291,7 +360,7 @@ def _beside(part: Part, stop: Stop, obstacles: Sequence[Obstacle]) -> Stop | Non
 def _fits_in(corners: FloatArray, bin_: Fixture, places: FloatArray) -> NDArray[np.bool_]:
     """Is a part of these corners (n, 3) within the walls of a bin when it is moved by each of places (k, 2)?"""
     assert bin_.inside is not None
-    back = np.linalg.inv(bin_.floor)
+    back = invert_pose(bin_.floor)
     here = moved(corners, back)
     ways = places @ back[:2, :2].T
     half = np.array(bin_.inside[:2]) / 2.0 + 1e-6

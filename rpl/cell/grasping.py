@@ -101,14 +101,11 @@ def squeezed(corners: FloatArray) -> float:
     up, down = _width(outline, step), _width(outline, -step)
     if min(up, down) >= here - 1e-12:
         return 0.0
-    way = [stop for stop in stops if stop > step / 2] if up < down else [-stop for stop in stops if stop < -step / 2]
     sign = 1.0 if up < down else -1.0
-    turn, width = 0.0, here
-    for stop in sorted(way):
-        if (narrower := _width(outline, sign * stop)) >= width:
-            break
-        turn, width = sign * stop, narrower
-    return float(turn)
+    for stop in sorted(float(sign * one) for one in stops if sign * one > step / 2):
+        if _width(outline, sign * (stop + step)) >= _width(outline, sign * stop):
+            return sign * stop  # from a flat edge on it would have to open the jaws
+    return 0.0
 
 
 def _width(corners: FloatArray, turn_rad: float) -> float:

@@ -64,15 +64,16 @@ class Cylinder:
         """The point (3,) of the surface nearest to `point`, and the normal (3,) there."""
         radius, half = self.diameter / 2.0, self.height / 2.0
         far = float(math.hypot(point[0], point[1]))
-        side = np.array([point[0], point[1], 0.0]) / far if far > 0.0 else np.array([1.0, 0.0, 0.0])
+        side = np.array([point[0], point[1], 0.0]) / far if far > 1e-12 else np.array([1.0, 0.0, 0.0])
         flat = np.array([0.0, 0.0, math.copysign(1.0, point[2])])
-        inside = side * min(far, radius) + np.array([0.0, 0.0, min(max(point[2], -half), half)])
-        off = point - inside
-        if (away := float(np.linalg.norm(off))) > 1e-9:  # less is rounding of a point inside
-            return inside, off / away
-        if radius - far < half - abs(point[2]):
-            return side * radius + np.array([0.0, 0.0, point[2]]), side
-        return side * far + flat * half, flat
+        beside, beyond = far - radius, abs(float(point[2])) - half
+        if beside <= 0.0 and beyond <= 0.0:  # inside
+            if beside > beyond:
+                return side * radius + np.array([0.0, 0.0, point[2]]), side
+            return side * far + flat * half, flat
+        found = side * min(far, radius) + np.array([0.0, 0.0, min(max(float(point[2]), -half), half)])
+        off = point - found
+        return found, np.asarray(off / np.linalg.norm(off))
 
 
 @dataclass(frozen=True)
@@ -107,8 +108,10 @@ class Capsule:
         """The point (3,) of the surface nearest to `point`, and the normal (3,) there."""
         half = self.length / 2.0
         middle = np.array([0.0, 0.0, min(max(point[2], -half), half)])
-        found, normal = Sphere(self.diameter).on_surface(point - middle)
-        return middle + found, normal
+        off = point - middle
+        away = float(np.linalg.norm(off))
+        normal = off / away if away > 1e-12 else np.array([1.0, 0.0, 0.0])
+        return middle + normal * (self.diameter / 2.0), np.asarray(normal)
 
 
 @dataclass(frozen=True)
@@ -258,6 +261,8 @@ def _ball(radius: float, half: float) -> Facets:
 
 def _prism(outline: Sequence[tuple[float, float]], height: float) -> Facets:
     """A simple polygon drawn along z, with its middle at z = 0."""
+    if _crosses_itself(outline):
+        raise ValueError("the outline crosses itself")
     corners = outline if _area(outline) > 0.0 else outline[::-1]
     count, half = len(corners), height / 2.0
     vertices = np.array([(x, y, -half) for x, y in corners] + [(x, y, half) for x, y in corners])
@@ -275,10 +280,22 @@ def _area(outline: Sequence[tuple[float, float]]) -> float:
     return sum(x * v - u * y for (x, y), (u, v) in zip(outline, following, strict=True)) / 2.0
 
 
+def _crosses_itself(outline: Sequence[tuple[float, float]]) -> bool:
+    """Do two sides that are no neighbours meet? By the sides on which each has the ends of the other."""
+    count = len(outline)
+    sides = [(outline[place], outline[(place + 1) % count]) for place in range(count)]
+    for first, (a, b) in enumerate(sides):
+        for second in range(first + 2, count - (first == 0)):
+            c, d = sides[second]
+            if _area((a, b, c)) * _area((a, b, d)) < 0.0 and _area((c, d, a)) * _area((c, d, b)) < 0.0:
+                return True
+    return False
+
+
 def _ears(outline: Sequence[tuple[float, float]]) -> list[tuple[int, int, int]]:
     """Triangles of a simple counter-clockwise polygon, by cutting ears off (Meisters, Polygons Have Ears, 1975).
 
-    Raises ValueError for an outline that crosses itself: no ear is left then.
+    Raises ValueError for an outline that touches itself: no ear is left then.
     """
     left = list(range(len(outline)))
     found: list[tuple[int, int, int]] = []
@@ -290,7 +307,7 @@ def _ears(outline: Sequence[tuple[float, float]]) -> list[tuple[int, int, int]]:
                 left.remove(corner)
                 break
         else:
-            raise ValueError("the outline crosses itself")
+            raise ValueError("the outline touches itself")
     return [*found, (left[0], left[1], left[2])]
 
 

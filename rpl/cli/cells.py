@@ -232,6 +232,10 @@ def shown(run: CellRun, outcome: Outcome, found: Collisions | None) -> Iterator[
     for one in outcome.busy:
         moves = f"moves for {100.0 * one.share:.0f} % of the time"
         yield f"{one.robot or 'robot'}: {one.status} after {one.time_s:.3f} s, {moves}"
+    for each in outcome.settled:
+        down = ", ".join(f"{one:g}" for one in each.normal)
+        share = f"{100.0 * each.count / each.of:.1f} %, expected {100.0 * each.expected:.1f} %"
+        yield f"{each.kind}: {each.count} of {each.of} lie with ({down}) down: {share}"
     yield from (f"note: {note}" for note in outcome.notes)
     lost = [one.part for one in outcome.parts if one.state == "lost"]
     if lost:

@@ -1,0 +1,200 @@
+"""Programs that run in cells with bodies: the samples, and rules that hold for every cell."""
+
+import copy
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rpl.cell import parse_cell, read_cell
+from rpl.diagnostics import Diagnostics
+from rpl.emulator.model import load_robot
+from rpl.errors import UsageError
+from rpl.project import read_program
+from rpl.runtime.limits import DEFAULTS
+from rpl.simulation import Simulation, run_program
+from rpl.source import source_from_bytes
+from rpl.workcell.loading import robots_of
+from rpl.workcell.outcome import outcome_of
+from rpl.workcell.repeating import of_mean, of_share, repeat, statistics, student_t
+from rpl.workcell.running import run_cell
+
+SAMPLES = Path(__file__).parents[2] / "samples" / "cells"
+
+
+def cell_of(name):
+    return read_cell(SAMPLES / name)
+
+
+def run(cell, limits=DEFAULTS):
+    diagnostics = Diagnostics()
+    loaded = robots_of(cell, diagnostics)
+    assert not diagnostics.has_errors
+    return run_cell(cell, [one.driven for one in loaded], limits)
+
+
+def ends(made):
+    return {one.part: (one.state, one.on) for one in outcome_of(made).parts}
+
+
+@pytest.mark.parametrize(
+    ("language", "place"),
+    [("krl", (500.0, 200.0, 25.0)), ("rapid", (450.0, 150.0, 25.0)), ("urscript", (-450.0, 100.0, 25.0))],
+)
+def test_a_box_is_taken_across_in_three_languages_behind_a_misgrip(language, place):
+    made = run(cell_of(f"box_pick/{language}.toml"))
+    assert made.status == "finished"
+    assert [(one.part, one.ok) for one in made.grasps] == [("box", False), ("box", True)]
+    (box,) = outcome_of(made).parts
+    assert box.state == "rests"
+    assert box.pose[:3, 3] == pytest.approx(place, abs=0.01)
+    # The jaws have turned it square to them on the way.
+    assert np.allclose(np.abs(box.pose[:3, :3]).max(axis=0), 1.0, atol=1e-4)
+
+
+@pytest.mark.parametrize("language", ["krl", "rapid", "urscript"])
+def test_three_misgrips_run_the_error_branch(language):
+    cell = cell_of(f"box_pick/{language}.toml")
+    gripper = replace(cell.layout.grippers[0], misses=(1, 2, 3))
+    made = run(replace(cell, layout=replace(cell.layout, grippers=(gripper,))))
+    assert made.status in ("stopped", "finished")
+    switched = [name for _, name, value in made.robots[0].result.outputs if value]
+    assert len(switched) == 4  # three closings and the alarm
+    assert switched[-1] in ("$OUT[2]", "doAlarm", "digital_out[1]")
+    assert ends(made) == {"box": ("rests", "table")}
+
+
+def test_a_program_written_for_no_cell_builds_a_stack():
+    made = run(cell_of("palletiser/cell.toml"))
+    assert made.status == "finished"
+    assert [one.ok for one in made.grasps] == [True] * 9
+    found = ends(made)
+    assert [found[f"carton#{n}"] for n in (5, 6, 7, 8)] == [("gone", "")] * 4
+    assert found["carton#9"] == ("rests", "pallet")
+    before = [one for one in made.placed if one.state == "rests" and one.part == "carton#8"]
+    assert (before[-1].on, before[-1].pose[2, 3]) == ("carton#4", pytest.approx(80.0, abs=0.01))
+    assert made.notes == ()
+
+
+def test_without_removal_the_ninth_carton_is_let_go_in_the_first():
+    cell = cell_of("palletiser/cell.toml")
+    made = run(replace(cell, layout=replace(cell.layout, removals=())))
+    assert made.notes == ("32.520 s: carton#9 is let go inside carton",)
+
+
+def test_two_robots_hand_over_three_boxes():
+    made = run(cell_of("handover/cell.toml"))
+    assert made.status == "finished"
+    places = {one.part: one.pose[:3, 3] for one in outcome_of(made).parts}
+    for number, name in enumerate(("box", "box#2", "box#3")):
+        assert places[name] == pytest.approx((800.0, -250.0 - 100.0 * number, 25.0), abs=0.01)
+
+
+def test_a_deadlock_names_who_waits_for_whom():
+    cell = cell_of("handover/cell.toml")
+    wires = tuple(one for one in cell.layout.wires if one.robot != "right")
+    made = run(replace(cell, layout=replace(cell.layout, wires=wires)))
+    assert made.status == "deadlock"
+    assert "left: main waits for" in made.fault
+    assert "$IN[2]" in made.fault
+    assert "right: main waits for" in made.fault
+    assert "(driven by left.$OUT[2])" in made.fault
+
+
+def test_the_same_seed_gives_the_same_bytes_and_another_one_another_pile():
+    cell = cell_of("bin_drop/cell.toml")
+    few = replace(cell, layout=replace(cell.layout, parts=cell.layout.parts[:12]))
+
+    def bytes_of(seed):
+        return json.dumps(outcome_of(run(replace(few, seed=seed))).as_json())
+
+    assert bytes_of(1) == bytes_of(1)
+    assert bytes_of(1) != bytes_of(2)
+
+
+def test_a_snapshot_of_a_run_goes_on_by_itself():
+    cell = cell_of("box_pick/krl.toml")
+    (loaded,) = robots_of(cell, Diagnostics())
+    first = Simulation(loaded.driven.program, loaded.driven.model, cell)
+    first.run_until(4.0)
+    second = copy.deepcopy(first)
+    first.run()
+    second.run()
+    assert first.result().outputs == second.result().outputs
+    worlds = (first.bodies.world, second.bodies.world)
+    assert worlds[0] is not worlds[1]
+    assert [len(one.grasps) for one in worlds] == [2, 2]
+
+
+def test_a_run_without_bodies_has_no_world():
+    """What exists keeps working: a cell file of signals alone."""
+    read = read_program([source_from_bytes("m.mod", b"MODULE m\nPROC main()\nSet do1;\nENDPROC\nENDMODULE\n")])
+    result = run_program(read.program, None, parse_cell('[[reaction]]\nwhen = "do1"\nsignal = "di1"\nvalue = true\n'))
+    assert [event.kind for event in result.trace] == ["output", "input", "end"]
+
+
+def test_signals_of_several_robots_need_a_name_before_them():
+    cell = replace(
+        cell_of("handover/bridged.toml"),
+        inputs=parse_cell('[[input]]\ntime = 0\nsignal = "di1"\nvalue = true\n').inputs,
+    )
+    with pytest.raises(UsageError, match=r"the signal di1: say whose it is: left\.di1"):
+        run(cell)
+
+
+def test_bodies_need_an_arm():
+    (loaded,) = robots_of(cell_of("box_pick/krl.toml"), Diagnostics())
+    with pytest.raises(UsageError, match="bodies need a robot whose moves take time"):
+        Simulation(loaded.driven.program, None, cell_of("box_pick/krl.toml"))
+
+
+def test_a_held_part_passes_a_sensor():
+    """The light of a sensor between the two places is broken while the box goes by, and free again behind it."""
+    cell = cell_of("box_pick/krl.toml")
+    text = '[[sensor]]\nname = "light"\nsignal = "$IN[9]"\nbox = [300, 20, 300]\nat = [500, 0, 180]\n'
+    light = parse_cell(text).layout.sensors
+    made = run(replace(cell, layout=replace(cell.layout, sensors=light)))
+    seen = [
+        (event.t, event.data["value"])
+        for event in made.robots[0].result.trace
+        if event.kind == "input" and event.data["signal"] == "$IN[9]"
+    ]
+    assert [value for _, value in seen] == [True, False]
+    taken, let_go = made.grasps[1].t, made.openings[-1].t
+    assert taken < seen[0][0] < seen[1][0] < let_go
+
+
+def test_repeated_runs_are_the_same_over_processes():
+    cell = cell_of("box_pick/krl.toml")
+    gripper = replace(cell.layout.grippers[0], misses=(), chance_of_miss=0.5)
+    chancy = replace(cell, layout=replace(cell.layout, grippers=(gripper,)))
+    driven = [one.driven for one in robots_of(chancy, Diagnostics())]
+    alone, shared = (repeat(chancy, driven, DEFAULTS, 6, jobs) for jobs in (1, 2))
+    assert alone == shared
+    made = statistics(alone)
+    assert made.held is not None
+    assert 0.0 < made.held.low < made.held.mean < made.held.high < 1.0
+    assert len({one.time_s for one in alone}) > 1
+
+
+@pytest.mark.parametrize(("freedom", "quantile"), [(1, 12.706), (2, 4.303), (3, 3.182), (5, 2.571), (30, 2.042)])
+def test_students_quantiles_are_those_of_the_tables(freedom, quantile):
+    assert student_t(freedom) == pytest.approx(quantile, rel=0.008)
+
+
+def test_intervals_of_means_and_shares():
+    """The mean of 1..5 is 3 with a standard error of sqrt(2.5 / 5); Wilson's interval of 8 of 10 is 0.490 to 0.943."""
+    mean = of_mean([1.0, 2.0, 3.0, 4.0, 5.0])
+    assert (mean.low, mean.high) == pytest.approx((3.0 - 2.776 * 0.5**0.5, 3.0 + 2.776 * 0.5**0.5), rel=2e-3)
+    share = of_share(8, 10)
+    assert (share.low, share.high) == pytest.approx((0.490, 0.943), abs=1e-3)
+
+
+def test_the_arm_of_a_cell_file_may_be_a_file_beside_it(tmp_path):
+    assert load_robot("kuka_kr6r900sixx").axes == 6
+    text = '[[robot]]\nname = "a"\narm = "mine.toml"\nprograms = ["p.src"]\n'
+    (tmp_path / "cell.toml").write_text(text)
+    place = read_cell(tmp_path / "cell.toml").layout.robots[0]
+    assert (place.arm, place.programs) == (str(tmp_path / "mine.toml"), (str(tmp_path / "p.src"),))
