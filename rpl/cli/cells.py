@@ -207,6 +207,7 @@ def document(run: CellRun, outcome: Outcome, found: Collisions | None) -> dict[s
         "fault": faults[0].as_json() if faults else None,
         **outcome.as_json(),
         **(found.as_json() if found is not None else {}),
+        "notes": [*outcome.notes, *(found.notes if found is not None else ())],
     }
 
 

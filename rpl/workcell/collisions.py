@@ -29,6 +29,8 @@ STEP_S = 0.004
 REST_MM = 1.0
 # Moments that are looked at in one go.
 BLOCK = 8192
+# Collisions, and near misses, that are printed; one often has others in its train.
+_MOST_SHOWN = 10
 # Moments of one window of boxes.
 WINDOW = 64
 # Contacts that are this near to each other are one, and one that a grasp is this near to belongs to it.
@@ -104,6 +106,24 @@ class Collisions:
             "near": [one.as_json() for one in self.near],
             "notes": list(self.notes),
         }
+
+    def lines(self) -> Iterator[str]:
+        """For people."""
+        for one in self.collisions[:_MOST_SHOWN]:
+            x, y, z = one.at_mm
+            where = f"{one.origin.file}:{one.origin.line}: " if one.origin.source else ""
+            depth = f"{one.depth_mm:.1f} mm deep, at ({x:.0f}, {y:.0f}, {z:.0f})"
+            yield f"{one.t:9.3f} s  {where}{one.a} collides with {one.b} until {one.until_s:.3f} s, {depth}"
+        if (more := len(self.collisions) - _MOST_SHOWN) > 0:
+            yield f"           and {more} more (--json has them all)"
+        for near in sorted(self.near, key=lambda one: one.distance_mm)[:_MOST_SHOWN]:
+            where = f"{near.origin.file}:{near.origin.line}: " if near.origin.source else ""
+            yield f"{near.t:9.3f} s  {where}{near.a} comes within {near.distance_mm:.1f} mm of {near.b}"
+        if (more := len(self.near) - _MOST_SHOWN) > 0:
+            yield f"           and {more} more near misses"
+        if not self.collisions:
+            yield "no collision was found"
+        yield from (f"note: {note}" for note in self.notes)
 
 
 def find_collisions(

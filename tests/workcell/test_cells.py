@@ -16,10 +16,12 @@ from rpl.project import read_program
 from rpl.runtime.limits import DEFAULTS
 from rpl.simulation import Simulation, run_program
 from rpl.source import source_from_bytes
+from rpl.workcell.collisions import find_collisions
 from rpl.workcell.loading import robots_of
 from rpl.workcell.outcome import outcome_of
 from rpl.workcell.repeating import of_mean, of_share, repeat, statistics, student_t
 from rpl.workcell.running import run_cell
+from rpl.workcell.stopping import stopped_at
 
 SAMPLES = Path(__file__).parents[2] / "samples" / "cells"
 
@@ -92,6 +94,28 @@ def test_two_robots_hand_over_three_boxes():
         assert places[name] == pytest.approx((800.0, -250.0 - 100.0 * number, 25.0), abs=0.01)
 
 
+def test_the_interlock_keeps_them_apart():
+    good, bridged = (find_collisions(run(cell_of(f"handover/{name}.toml"))) for name in ("cell", "bridged"))
+    assert good.collisions == ()
+    first = bridged.collisions[0]
+    assert {first.a, first.b} == {"left_jaws", "right_jaws"}
+    assert (Path(first.origin.file).name, first.origin.line) == ("right.mod", 21)
+
+
+def test_a_collision_can_end_the_run():
+    cell = cell_of("handover/bridged.toml")
+    first = find_collisions(run(cell)).collisions[0]
+    made = stopped_at(run(cell, replace(DEFAULTS, time_s=first.t)), first)
+    assert made.status == "fault"
+    assert {one.result.fault.code for one in made.robots} == {"collision"}
+    assert all(one.result.time_s == pytest.approx(first.t) for one in made.robots)
+
+
+def test_what_was_taken_away_is_in_nobodys_way():
+    found = find_collisions(run(cell_of("palletiser/cell.toml")))
+    assert found.collisions == ()
+
+
 def test_a_deadlock_names_who_waits_for_whom():
     cell = cell_of("handover/cell.toml")
     wires = tuple(one for one in cell.layout.wires if one.robot != "right")
@@ -130,9 +154,11 @@ def test_a_snapshot_of_a_run_goes_on_by_itself():
 
 def test_a_run_without_bodies_has_no_world():
     """What exists keeps working: a cell file of signals alone."""
-    read = read_program([source_from_bytes("m.mod", b"MODULE m\nPROC main()\nSet do1;\nENDPROC\nENDMODULE\n")])
+    read = read_program(
+        [source_from_bytes("m.mod", b"MODULE m\nPROC main()\nSet do1;\nWaitDI di1,1;\nENDPROC\nENDMODULE\n")]
+    )
     result = run_program(read.program, None, parse_cell('[[reaction]]\nwhen = "do1"\nsignal = "di1"\nvalue = true\n'))
-    assert [event.kind for event in result.trace] == ["output", "input", "end"]
+    assert [event.kind for event in result.trace] == ["output", "wait", "input", "end"]
 
 
 def test_signals_of_several_robots_need_a_name_before_them():

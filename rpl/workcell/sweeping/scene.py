@@ -200,12 +200,12 @@ class _Builder:
                 self._add(len(self.things) - 1, body.shape, body.at, STILL, 0)
 
     def part(self, name: str, places: list[Placed]) -> None:
-        """One piece for each stay. Where it falls or is lost, it is not looked at."""
+        """One piece for each stay. Where it falls, is lost or is taken away, it is not looked at."""
         shape = self.run.layout.by_name[name].shape
         robots = {one.name: one.robot for one in self.run.layout.grippers}
         self.things.append(Thing(name, "part"))
         for here, after in pairwise((*places, None)):
-            if here is None or here.state in ("falls", "lost"):
+            if here is None or here.state in ("falls", "lost", "gone"):
                 continue
             end = after.t if after is not None else end_of(self.run)
             way, link, at = STILL, 0, here.pose
