@@ -150,7 +150,7 @@ def _ended(
     """Say and write what a run has shown; the exit status."""
     _remark(result, model)
     layers, times = reports.layers(result, model), reports.times(result, model)
-    _told(result, layers, times, as_json)
+    _told(result, layers, times, _outside(result, read), as_json)
     # Last, so that a file that cannot be written does not cost the result.
     write_trace(trace, result)
     beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
@@ -181,13 +181,26 @@ def _written(run: CellRun, loaded: Sequence[Loaded], trace: Path | None, reports
         reports.write(run.robots[0].result, loaded[0].read, run.robots[0].model)
 
 
-def _told(result: RunResult, layers: RunDynamics | None, times: RunTimes | None, as_json: bool) -> None:
+def _outside(result: RunResult, read: ReadProgram) -> tuple[str, ...]:
+    """What a run that stands for good waits for and nothing in the project changes."""
+    from rpl.depth import at_any_depth
+    from rpl.inventory.outside import from_outside
+
+    return at_any_depth(lambda: from_outside(result, read.program))
+
+
+def _told(
+    result: RunResult, layers: RunDynamics | None, times: RunTimes | None, outside: tuple[str, ...], as_json: bool
+) -> None:
     """The run and its reports, for machines or for people."""
     if as_json:
         more = {"dynamics": layers, "times": times}
-        print_json(result.as_json() | {name: made.as_json() for name, made in more.items() if made is not None})
+        named = {"from_outside": list(outside)} if outside else {}
+        print_json(result.as_json() | named | {name: made.as_json() for name, made in more.items() if made is not None})
     else:
         show(result)
+        if outside:
+            say(printable(f"nothing in the project changes {', '.join(outside)}: that comes from outside"), err=True)
         show_reports(layers, times)
 
 

@@ -9,11 +9,16 @@ visualisation writes).
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from rpl import ir, registry
 from rpl.ir.walk import bodies, walk
 from rpl.passes.scope import ProgramScope, Scope
+from rpl.passes.undeclared import declared_by_use
 from rpl.source import Origin
+
+if TYPE_CHECKING:
+    from rpl.runtime.trace import RunResult
 
 _BEGINNING = (ir.BoolLiteral(False), ir.IntLiteral(0), ir.RealLiteral(0.0))
 
@@ -107,6 +112,16 @@ class Outside:
             self.computed.add(target.kind)
 
 
+def from_outside(result: RunResult, program: ir.Program) -> tuple[str, ...]:
+    """What the tasks of a run that stands for good wait for and nothing in the program changes, inputs aside. program:
+    in normal form, as it was run; what nothing declares is looked at too."""
+    waiting = [one for one in result.awaited if one.kind in ("condition", "") and not one.inputs]
+    if result.status != "deadlock" or not waiting:
+        return ()
+    outside = Outside(declared_by_use(program))
+    return tuple(dict.fromkeys(name for one in waiting for name in outside.names(one.origin)))
+
+
 def _conditions(node: object) -> Iterator[tuple[ir.Expression, Origin]]:
     match node:
         case ir.WaitUntil(condition=condition, origin=origin) | ir.While(condition=condition, origin=origin):
@@ -123,4 +138,4 @@ def _spelled(signal: ir.Signal, scope: Scope) -> str:
     return f"a {signal.kind.replace('_', ' ')}"
 
 
-__all__ = ["Outside"]
+__all__ = ["Outside", "from_outside"]

@@ -175,3 +175,15 @@ def test_a_stub_that_is_never_asked_is_told(tmp_path: Path, capsys: pytest.Captu
     told = capsys.readouterr().err
     assert "own stands for, and the program has that routine" in told
     assert "lots stands for, and nothing calls it" in told and "lost stands for" not in told
+
+
+def test_a_wait_for_what_nothing_in_the_project_changes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    job = "/JOB\n//NAME MAIN\n//POS\n///NPOS 0,0,0,0,0,0\n//INST\n///DATE 2026/01/01 00:00\n///ATTR SC,RW\nNOP\n"
+    (tmp_path / "MAIN.JBI").write_text(f"{job}DOUT OT#(890) OFF\nWAIT OT#(890)=ON\nEND\n")
+    assert run(["run", str(tmp_path)]) == 1
+    assert "nothing in the project changes OT#(890): that comes from outside" in capsys.readouterr().err
+    assert run(["run", str(tmp_path), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["from_outside"] == ["OT#(890)"]
+    (tmp_path / "MAIN.JBI").write_text(f"{job}WAIT OT#(890)=ON\nDOUT OT#(890) ON\nEND\n")
+    assert run(["run", str(tmp_path), "--json"]) == 1
+    assert "from_outside" not in json.loads(capsys.readouterr().out)
