@@ -266,7 +266,7 @@ class ChainArm:
         turning = np.array([kind == "revolute" for kind in self.chain.kinds])[:, None]
         points, directions = np.empty((len(rows), model.nq, 3)), np.empty((len(rows), model.nq, 3))
         for i, row in enumerate(rows):
-            twists = pin.computeJointJacobians(model, data, row).T
+            twists = pin.computeJointJacobians(model, data, row).reshape(6, -1).T
             linear, angular = twists[:, :3], twists[:, 3:]
             # The point of a screw nearest to the origin is w x v.
             points[i] = np.where(turning, 1000.0 * np.cross(angular, linear), 0.0)

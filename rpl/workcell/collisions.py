@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rpl.emulator.rotations import FloatArray
+from rpl.errors import UsageError
 from rpl.source import NOWHERE, Origin
 from rpl.workcell.record import CellRun
 from rpl.workcell.sweeping.scene import Meeting, Scene, scene_of
@@ -143,6 +145,25 @@ def find_collisions(
         if on_progress is not None:
             on_progress(min(1.0, (first + BLOCK) / len(moments)))
     return search.result()
+
+
+def distance_over_time(run: CellRun, a: str, b: str, times: Sequence[float]) -> FloatArray:
+    """The signed distance (k,) in mm of two things at moments (k,) s, whatever may touch; NaN where one is not there.
+
+    Raises UsageError for a name that there is not, and where Pinocchio or coal is not installed.
+    """
+    scene = scene_of(run)
+    names = {thing.name: number for number, thing in enumerate(scene.things)}
+    for name in (a, b):
+        if name not in names:
+            raise UsageError(f"nothing of the cell is called '{name}': there are {', '.join(names)}")
+    ours, theirs = ([piece for piece in scene.pieces if piece.thing == names[name]] for name in (a, b))
+    meter, found = Meter(scene.ways), np.full(len(times), np.nan)
+    for row, t in enumerate(times):
+        there = ([piece for piece in one if piece.start_s <= t <= piece.end_s] for one in (ours, theirs))
+        pairs = product(*there)
+        found[row] = min((meter.at(first, second, float(t)) for first, second in pairs), default=np.nan)
+    return found
 
 
 @dataclass

@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 import rpl
 from rpl.cell.armbodies import arm_bodies, link_poses
 from rpl.cell.layout import Body, Gripper, Layout, Part, RobotPlace, Switch
-from rpl.cell.shapes import Box, Capsule, Cylinder, Sphere
+from rpl.cell.shapes import Box, Capsule, Cylinder, Extrusion, Sphere
 from rpl.emulator.model import RobotModel, load_robot
 from rpl.emulator.rotations import FloatArray
+from rpl.errors import UsageError
 from rpl.runtime.trace import RunResult
 from rpl.simulation import run_program
-from rpl.workcell.collisions import Collisions, find_collisions
+from rpl.workcell.collisions import Collisions, distance_over_time, find_collisions
 from rpl.workcell.record import CellRun, Grasp, Placed
 from tests.workcell.cellruns import at, cell, driven, fixture, standing, straight, to_joints
 
@@ -259,6 +260,45 @@ def test_near_misses_have_their_distance_and_line() -> None:
     (near,) = [one for one in found.near if one.b == "cube"]
     assert (near.a, near.origin.line) == ("wall", 3)
     assert near.distance_mm == pytest.approx(3.0, abs=0.01)
+
+
+def test_distances_over_time_go_down_to_the_near_miss() -> None:
+    wall = fixture("wall", Box((400, 10, 97)), at(500, 100, 248.5))
+    run, (down, up) = picked_and_placed(fixtures=(wall,), near_mm=10.0)
+    times = np.linspace(down, up, 400)[1:-1]
+    away = distance_over_time(run, "cube", "wall", times)
+    (near,) = [one for one in find_collisions(run).near if one.b == "cube"]
+    assert away.min() == pytest.approx(near.distance_mm, abs=0.05)
+    with pytest.raises(UsageError, match="nothing of the cell is called 'wal'"):
+        distance_over_time(run, "cube", "wal", times)
+
+
+HOLLOW = """\
+<robot name="fork">
+  <link name="base_link"/>
+  <link name="fork">
+    <collision><geometry><mesh filename="fork.obj"/></geometry></collision>
+  </link>
+  <joint name="slide" type="prismatic"><parent link="base_link"/><child link="fork"/>
+    <axis xyz="1 0 0"/><limit lower="-1" upper="1" velocity="1" effort="1"/></joint>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(("y", "touches"), [(0.0, False), (0.05, True), (-0.05, True)])
+def test_the_mesh_of_a_urdf_is_hollow_where_it_is(tmp_path: Path, y: float, touches: bool) -> None:
+    """Two prongs slide past a thin post: between them, or into one."""
+    prongs = Extrusion(((0, -80), (300, -80), (300, -40), (50, -40), (50, 40), (300, 40), (300, 80), (0, 80)), 50.0)
+    facets = prongs.facets
+    lines = ["v {} {} {}".format(*(vertex / 1000.0)) for vertex in facets.vertices]
+    lines += ["f {} {} {}".format(*(face + 1)) for face in facets.faces]
+    (tmp_path / "fork.obj").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (tmp_path / "fork.urdf").write_text(HOLLOW, encoding="utf-8")
+    model = load_robot(str(tmp_path / "fork.urdf"))
+    post = fixture("post", Cylinder(10, 400), at(300, 1000 * y, 0))
+    run = driven(model, to_joints(280), start=[-200])
+    found = find_collisions(cell(Layout((RobotPlace("fork"),), fixtures=(post,)), (model, run)))
+    assert who(found) == ([("fork.link1", "post")] if touches else [])
 
 
 def test_a_run_is_searched_the_same_way_twice() -> None:

@@ -8,11 +8,12 @@ does not mind. A box, a cylinder, a sphere and a capsule are exact; an extrusion
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rpl.cell.shapes import Box, Capsule, Cylinder, Extrusion, Facets, Mesh, Shape, Sphere
+from rpl.cell.shapes import Box, Capsule, Cylinder, Extrusion, Mesh, Shape, Sphere
 from rpl.emulator.rotations import FloatArray
 from rpl.errors import UsageError
 
@@ -59,9 +60,9 @@ def solids_of(shape: Shape, at: FloatArray) -> tuple[Solid, ...]:
             half = np.array([0.0, 0.0, long / 2.0])
             return (Solid(coal.Capsule(wide / 2.0, float(long)), at, nothing, half, wide / 2.0),)
         case Extrusion():
-            return tuple(_hull(points, at) for points in _prisms(shape))
+            return tuple(form.at(at) for form in _of_extrusion(shape))
         case Mesh():
-            return (_of_mesh(shape.facets, at),)
+            return (_of_mesh(shape).at(at),)
 
 
 def _coal() -> coal:
@@ -72,30 +73,49 @@ def _coal() -> coal:
     return coal
 
 
-def _hull(points: FloatArray, at: FloatArray) -> Solid:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Form:
+    """What is worked out of a form once, wherever it stands."""
+
+    geometry: coal.CollisionGeometry
+    middle: FloatArray
+    half: FloatArray
+
+    def at(self, pose: FloatArray) -> Solid:
+        return Solid(self.geometry, pose, self.middle, self.half)
+
+
+def _hull(points: FloatArray) -> _Form:
     """The convex hull of points (n, 3)."""
     coal = _coal()
     corners = coal.StdVec_Vec3s()
     for point in points:
         corners.append(np.asarray(point, dtype=np.float64))
     low, high = points.min(axis=0), points.max(axis=0)
-    return Solid(coal.Convex.convexHull(corners, True, "Qt"), at, (low + high) / 2.0, (high - low) / 2.0)
+    return _Form(coal.Convex.convexHull(corners, True, "Qt"), (low + high) / 2.0, (high - low) / 2.0)
 
 
-def _of_mesh(facets: Facets, at: FloatArray) -> Solid:
+@lru_cache(maxsize=256)
+def _of_extrusion(shape: Extrusion) -> tuple[_Form, ...]:
+    return tuple(_hull(points) for points in _prisms(shape))
+
+
+@lru_cache(maxsize=256)
+def _of_mesh(shape: Mesh) -> _Form:
     """The hull of a convex mesh, else its triangles."""
     coal = _coal()
+    facets = shape.facets
     if np.linalg.matrix_rank(facets.vertices - facets.vertices[0], tol=1e-6) == 3:
-        hull = _hull(facets.vertices, at)
+        hull = _hull(facets.vertices)
         if 0.0 < hull.geometry.computeVolume() <= abs(facets.volume) * (1.0 + _CONVEX_SHARE):
             return hull
     shell = coal.BVHModelOBBRSS()
     shell.beginModel(len(facets.faces), len(facets.vertices))
-    for face in facets.faces:
-        shell.addTriangle(*(facets.vertices[corner] for corner in face))
+    shell.addVertices(np.ascontiguousarray(facets.vertices))
+    shell.addTriangles(np.ascontiguousarray(facets.faces))
     shell.endModel()
     low, high = facets.bounds
-    return Solid(shell, at, (low + high) / 2.0, (high - low) / 2.0)
+    return _Form(shell, (low + high) / 2.0, (high - low) / 2.0)
 
 
 def _prisms(shape: Extrusion) -> list[FloatArray]:
