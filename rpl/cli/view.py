@@ -31,11 +31,14 @@ from rpl.cli.output import (
 )
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
+from rpl.showing import counted
 from rpl.view.camera import VIEWS
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
     from rpl.project import ReadProgram
+    from rpl.view.scene import Scene
+    from rpl.workcell.collisions import Collision
     from rpl.workcell.record import CellRun
 
 
@@ -107,7 +110,7 @@ def command(
         return 1
     run = found.run
     with waiting("drawing"):
-        files = _drawn(run, save, picture, run.time_s if at_s is None else at_s, side)
+        files = _drawn(found, save, picture, run.time_s if at_s is None else at_s, side)
     for path, data in files.items():
         write_file(path, data)
     if as_json:
@@ -116,20 +119,19 @@ def command(
         )
     else:
         wrote = ", ".join(f"{path} ({len(data) / 1e6:.1f} MB)" for path, data in files.items())
-        say(f"{run.status} after {run.time_s:.3f} s; wrote {wrote}")
+        touched = f", {counted(len(found.collisions), 'collision')}" if found.collisions else ""
+        say(f"{run.status} after {run.time_s:.3f} s{touched}; wrote {wrote}")
     return 0
 
 
-def _drawn(run: CellRun, save: Path | None, picture: Path | None, at_s: float, side: str) -> dict[Path, bytes]:
+def _drawn(found: _Found, save: Path | None, picture: Path | None, at_s: float, side: str) -> dict[Path, bytes]:
     """The files that are asked for."""
-    from rpl.view.scene import scene_of
-
-    scene, files = scene_of(run), {}
+    scene, files = found.scene(), {}
     if save is not None:
         from rpl.view.document import view_document
         from rpl.view.page import view_page
 
-        files[save] = view_page(view_document(scene, _title(run))).encode("utf-8")
+        files[save] = view_page(view_document(scene, _title(found.run))).encode("utf-8")
     if picture is not None:
         from rpl.view.picture import picture as taken
 
@@ -143,6 +145,12 @@ class _Found:
 
     run: CellRun
     reads: tuple[ReadProgram, ...]
+    collisions: tuple[Collision, ...] = ()
+
+    def scene(self) -> Scene:
+        from rpl.view.scene import scene_of
+
+        return scene_of(self.run, self.collisions)
 
 
 def _live(asked: CellAsked, cell: str | None, host: str, port: int, browser: bool) -> int:
@@ -150,7 +158,6 @@ def _live(asked: CellAsked, cell: str | None, host: str, port: int, browser: boo
     from importlib.util import find_spec
 
     from rpl.view.live import MISSING, Live
-    from rpl.view.scene import scene_of
     from rpl.view.screen import Loaded, Screen
 
     if find_spec("viser") is None:
@@ -160,12 +167,12 @@ def _live(asked: CellAsked, cell: str | None, host: str, port: int, browser: boo
         found = _run(asked, cell)
         if found is None:
             raise UsageError("the program has errors now, and is shown as it was")
-        return Loaded(scene_of(found.run), found.reads)
+        return Loaded(found.scene(), found.reads)
 
     found = _run(asked, cell)
     if found is None:
         return 1
-    screen = Screen(Loaded(scene_of(found.run), found.reads), again, _overwrite)
+    screen = Screen(Loaded(found.scene(), found.reads), again, _overwrite)
     live = Live(screen, host, port, _title(found.run))
     if asked.as_json:
         print_json({"status": found.run.status, "time_s": round(found.run.time_s, 6), "address": live.address})
@@ -204,7 +211,19 @@ def _run(asked: CellAsked, cell: str | None) -> _Found | None:
         return None
     with waiting("running"):
         run = run_cell(surroundings, [one.driven for one in loaded], asked.limits)
-    return _Found(run, tuple(one.read for one in loaded))
+    return _Found(run, tuple(one.read for one in loaded), _collisions(run))
+
+
+def _collisions(run: CellRun) -> tuple[Collision, ...]:
+    """What touches; where the packages for that are missing, this is said and nothing is marked."""
+    from rpl.workcell.collisions import find_collisions
+
+    try:
+        with waiting("looking for collisions"):
+            return find_collisions(run).collisions
+    except UsageError as error:
+        say(f"rpl: collisions are not marked: {error}", err=True)
+        return ()
 
 
 def _alone(asked: CellAsked, surroundings: Cell | None) -> _Found | None:

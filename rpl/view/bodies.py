@@ -10,6 +10,7 @@ import numpy as np
 from rpl.cell.armbodies import arm_bodies
 from rpl.cell.shapes import Box, Shape, bounds_at
 from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix
+from rpl.workcell.sweeping.scene import NAMELESS
 
 if TYPE_CHECKING:
     from rpl.cell.layout import Gripper
@@ -38,9 +39,11 @@ JAW_MM = (24.0, 6.0, 36.0)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Drawn:
-    """A body. It is carried by a link of a robot (0: the base, one more than its last joint: the flange), by a part, or
-    by nothing. `at` (4, 4) is its place there: of a link where the arm's variables are all zero, in the robot's base.
-    `way` (3,) of a jaw: where it goes when the gripper opens; it is drawn where it is `rest_mm` from the middle."""
+    """A body, by the name that it has where collisions are told.
+
+    It is carried by a link of a robot (0: the base, the last one: the flange), by a part, or by nothing. `at` (4, 4) is
+    its place there: of a link where the arm's variables are all zero, in the robot's base. `way` (3,) of a jaw: where
+    it goes when the gripper opens; it is drawn where it is `rest_mm` from the middle."""
 
     name: str
     kind: Kind
@@ -65,7 +68,7 @@ def bodies_of(run: CellRun) -> tuple[Drawn, ...]:
     ]
     for number, robot in enumerate(run.robots):
         if robot.model is not None:
-            found += arm_drawn(robot.model, number, robot.place.name or robot.model.name)
+            found += arm_drawn(robot.model, number, robot.place.name or NAMELESS)
             for place, gripper in enumerate(layout.grippers):
                 if robot_of(run, gripper.robot) == number:
                     found += _gripper(gripper, place, number, robot.model)
@@ -88,7 +91,7 @@ def arm_drawn(model: RobotModel, number: int, name: str) -> list[Drawn]:
         colour = ROBOTS[number % len(ROBOTS)]
         if body.link % 2:
             colour = (_lighter(colour[0]), _lighter(colour[1]), _lighter(colour[2]))
-        label = f"{name} link {body.link}" if body.link else f"{name} base"
+        label = f"{name}.link{body.link}" if body.link else f"{name}.base"
         found.append(Drawn(label, "arm", body.shape, body.at, colour, number, body.link))
     return found
 
@@ -107,14 +110,14 @@ def _gripper(gripper: Gripper, place: int, robot: int, model: RobotModel) -> lis
         low, high = bounds_at(body.shape, invert_pose(gripper.grip) @ body.at)[:, 1]
         if gripper.kind == "jaws" and (side := int(low > 0.0) - int(high < 0.0)):
             sides += 1
-            name, rest = f"{gripper.name} jaw", gripper.opening[1] / 2.0
-            found.append(_jaw(name, body.shape, flange @ body.at, side * across, rest, place, robot, model))
+            rest = gripper.opening[1] / 2.0
+            found.append(_jaw(gripper.name, body.shape, flange @ body.at, side * across, rest, place, robot, model))
         else:
             found.append(Drawn(gripper.name, "tool", body.shape, flange @ body.at, TOOL, robot, model.axes))
     if gripper.kind == "jaws" and not sides:
         for side in (1, -1):
             here = flange @ gripper.grip @ pose_matrix(np.array([0.0, side * JAW_MM[1] / 2.0, 0.0]))
-            found.append(_jaw(f"{gripper.name} jaw", Box(JAW_MM), here, side * across, 0.0, place, robot, model))
+            found.append(_jaw(gripper.name, Box(JAW_MM), here, side * across, 0.0, place, robot, model))
     return found
 
 

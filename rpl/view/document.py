@@ -165,12 +165,12 @@ def _events(scene: Scene, files: list[str]) -> list[Row]:
             "t": round(one.t, 4),
             "kind": "collision",
             "text": f"{one.a} touches {one.b}, {one.depth_mm:.1f} mm deep",
+            "until": round(one.until_s, 4),
             "names": [one.a, one.b],
+            "point": [round(value, 2) for value in one.at_mm],
         }
-        if one.file in files:
-            row |= {"file": files.index(one.file), "line": one.line}
-        if one.point is not None:
-            row["point"] = [round(value, 2) for value in one.point]
+        if one.origin.file in files:
+            row |= {"file": files.index(one.origin.file), "line": one.origin.line}
         found.append(row)
     found.sort(key=lambda row: float(str(row["t"])))
     return found[:MOST_EVENTS]

@@ -22,7 +22,6 @@ SPEEDS = np.array(
     [(44, 47, 160), (31, 127, 208), (23, 182, 164), (122, 209, 81), (253, 231, 37), (249, 142, 9), (215, 48, 31)], float
 )
 ROUND = np.cos(np.deg2rad(32.0))  # faces that meet at less look round, those that meet at more have an edge
-COLLIDES_S = 0.25  # so long before and behind it a collision is shown
 NEARER = 4e-3  # a line on a face is drawn on it, not in it: by this share of its depth
 
 
@@ -97,7 +96,7 @@ class _Picture:
         self.scene, self.camera, self.canvas = scene, camera, Canvas(width, height)
         self.pixels: FloatArray = np.tile(np.array(GROUND), (width * height, 1))
         poses = scene.poses_at(t)
-        now = [one for one in scene.collisions if abs(one.t - t) < COLLIDES_S]
+        now = scene.collisions_at(t)
         names = {name for one in now for name in (one.a, one.b)}
         bounds = bounds_of(scene)
         extent = max(float(np.linalg.norm(bounds[1] - bounds[0])) / 2.0, 100.0)
@@ -107,8 +106,7 @@ class _Picture:
             if body.kind != "sensor" and pose is not None
         ]
         for one in now:
-            if one.point is not None:
-                rows.append((Sphere(extent * 0.035), _at(np.array(one.point)), RED))
+            rows.append((Sphere(extent * 0.035), _at(np.array(one.at_mm)), RED))
         self._lines(*_grid(bounds, extent), 1.0, test=False)
         self._bodies(rows)
         self._paths()

@@ -17,20 +17,12 @@ from rpl.view.tracks import Track, track_of
 
 if TYPE_CHECKING:
     from rpl.cell.layout import Part
+    from rpl.workcell.collisions import Collision
     from rpl.workcell.record import CellRun
 
 
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """Two bodies that touch: at `t` s, `a` with `b`, at a line, so deep (mm), around a point in the cell."""
-
-    t: float
-    a: str
-    b: str
-    file: str
-    line: int
-    depth_mm: float
-    point: tuple[float, float, float] | None = None
+# So long (s) before and behind it a collision is shown.
+SEEN_S = 0.25
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +33,7 @@ class Scene:
     bodies: tuple[Drawn, ...]
     tracks: tuple[Track, ...]
     screws: tuple[Screws | None, ...]
-    collisions: tuple[Contact, ...] = ()
+    collisions: tuple[Collision, ...] = ()
 
     def links_at(self, robot: int, joints: FloatArray) -> FloatArray:
         """The frames of a robot's links (links + 1, 4, 4) in the cell."""
@@ -78,6 +70,10 @@ class Scene:
             else:
                 found.append(carried[body.link] @ self._opened(body, t))
         return found
+
+    def collisions_at(self, t: float) -> list[Collision]:
+        """Those that are shown at a time."""
+        return [one for one in self.collisions if one.t - SEEN_S < t < one.until_s + SEEN_S]
 
     def _parts_at(self, t: float, joints: Sequence[FloatArray | None]) -> list[FloatArray | None]:
         run = self.run
@@ -124,7 +120,7 @@ def first_width(opening: tuple[float, float]) -> float:
     return float(min(opening[1], 120.0))
 
 
-def scene_of(run: CellRun, collisions: Sequence[Contact] = ()) -> Scene:
+def scene_of(run: CellRun, collisions: Sequence[Collision] = ()) -> Scene:
     """All that is needed to draw a run."""
     screws = tuple(None if one.model is None else screws_of(one.model) for one in run.robots)
     return Scene(run, bodies_of(run), tuple(track_of(one) for one in run.robots), screws, tuple(collisions))

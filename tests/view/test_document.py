@@ -17,19 +17,24 @@ from rpl.source import source_from_text
 from rpl.view.document import LINES_AROUND, view_document
 from rpl.view.packing import packed, unpacked
 from rpl.view.page import TEXTS, view_page
-from rpl.view.scene import Contact, Scene, scene_of
+from rpl.view.scene import Scene, scene_of
 from rpl.view.tracks import LineAt, Track
+from rpl.workcell.collisions import Collision
 from rpl.workcell.record import CellRun, RobotRun
 from tests.report.test_page import LOADING, Page
 from tests.runtime.helpers import KUKA, read
 from tests.view.cells import LAYOUT, PROGRAM, cell_run
 
-HIT = Contact(2.0, "table", "jaws", "p0.src", 7, 3.25, (400.0, 0.0, 20.0))
+
+def hit() -> Collision:
+    """The jaws in the table while line 7 is driven."""
+    (origin,) = {event.origin for event in cell_run().robots[0].result.trace if event.origin.line == 7}
+    return Collision(2.0, 2.1, "table", "jaws", (400.0, 0.0, 20.0), 3.25, 2.05, origin)
 
 
 @pytest.fixture(scope="module")
 def scene() -> Scene:
-    return scene_of(cell_run(), [HIT])
+    return scene_of(cell_run(), [hit()])
 
 
 @pytest.fixture(scope="module")
@@ -122,7 +127,7 @@ def test_what_the_program_says_is_escaped() -> None:
 
 def test_two_runs_give_the_same_page(page: str) -> None:
     cell_run.cache_clear()
-    assert view_page(view_document(scene_of(cell_run(), [HIT]), "prog")) == page
+    assert view_page(view_document(scene_of(cell_run(), [hit()]), "prog")) == page
 
 
 def test_a_minute_stays_below_5_mb() -> None:

@@ -17,7 +17,8 @@ from rpl.cli.main import run as rpl
 from rpl.view.camera import VIEWS, Camera
 from rpl.view.picture import SIZE, bounds_of, picture
 from rpl.view.raster import NOTHING, Canvas, png
-from rpl.view.scene import Contact, scene_of
+from rpl.view.scene import scene_of
+from rpl.workcell.collisions import Collision
 from tests.runtime.helpers import KUKA
 from tests.view.cells import PROGRAM, cell_run
 
@@ -77,7 +78,7 @@ def test_everything_is_in_the_picture_and_fills_it(view: str, aspect: float) -> 
 
 
 def test_a_collision_is_red_at_its_time_and_a_picture_is_the_same_again() -> None:
-    scene = scene_of(cell_run(), [Contact(1.5, "table", "plug", "p0.src", 7, 1.0, (600.0, 0.0, 0.0))])
+    scene = scene_of(cell_run(), [Collision(1.5, 1.6, "table", "plug", (600.0, 0.0, 0.0), 1.0, 1.5)])
     files = {t: picture(scene, t, "top", (300, 200)) for t in (0.5, 1.5)}
     reds = {}
     for t, file in files.items():

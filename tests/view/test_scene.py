@@ -73,13 +73,13 @@ def test_bodies_beside_the_grip_are_jaws_that_move() -> None:
     scene = scene_of(run)
     assert [body.kind for body in scene.bodies if body.name.startswith("jaws")] == ["tool", "jaw", "jaw"]
     for t, apart in ((0.5, 100.0), (1.5, 50.0)):  # open as they are given; closed by 80 - 30 mm
-        left, right = (pose_of(scene, "jaws jaw", t, which)[:3, 3] for which in (0, 1))
+        left, right = (pose_of(scene, "jaws", t, which)[:3, 3] for which in (1, 2))
         assert np.linalg.norm(left - right) == pytest.approx(apart)
 
 
 def test_jaws_stand_as_far_apart_as_the_gripper_is_open(scene: Scene) -> None:
     for t, width in ((0.5, 120.0), (1.5, 30.0), (3.0, 80.0)):
-        left, right = (pose_of(scene, "jaws jaw", t, side)[:3, 3] for side in (0, 1))
+        left, right = (pose_of(scene, "jaws", t, side)[:3, 3] for side in (1, 2))
         inner = np.linalg.norm(left - right) - 6.0  # two halves of their thickness
         assert inner == pytest.approx(width)
 

@@ -71,14 +71,15 @@
   const at = (point) => Pose.moved(Pose.one(), point);
   const hits = run.events.filter((event) => event.kind === "collision");
   const SEEN_S = 0.25; // so long before and behind it a collision is shown in the scene
+  const touching = () => hits.filter((event) => event.t - SEEN_S < state.time && state.time < event.until + SEEN_S);
 
   function draw(places) {
-    const now = hits.filter((event) => Math.abs(event.t - state.time) < SEEN_S), names = new Set(now.flatMap((event) => event.names));
+    const now = touching(), names = new Set(now.flatMap((event) => event.names));
     drawing.begin(camera);
     drawing.lines([{ pieces: made3d.grid, width: 1, flat: true }]);
     const bodies = run.bodies.map((body, n) => ({ shape: shapes[body.shape], place: places.bodies[n], colour: body.colour.map((value) => value / 255), alpha: body.kind === "sensor" ? 0.25 : 1, glow: names.has(body.name) ? 0.75 : 0, behind: body.link % 2 ? 6 : 0 })).filter((one) => one.place);
     places.tools.forEach((tool) => { if (tool) bodies.push({ shape: made3d.dot, place: tool, colour: [0.9, 0, 0.48], alpha: 1 }); });
-    hits.forEach((event) => { if (event.point) bodies.push({ shape: now.includes(event) ? made3d.hit : made3d.dot, place: at(event.point), colour: [0.85, 0.1, 0.1], alpha: 1, glow: 1 }); });
+    hits.forEach((event) => bodies.push({ shape: now.includes(event) ? made3d.hit : made3d.dot, place: at(event.point), colour: [0.85, 0.1, 0.1], alpha: 1, glow: 1 }));
     drawing.bodies(bodies);
     const lines = [];
     if (shown.path) made3d.paths.forEach((pieces) => { if (pieces) lines.push({ pieces, width: 2.6 }); });
@@ -113,7 +114,7 @@
   const labels = [];
   function drawLabels(places) {
     const wanted = [], { clientWidth: width, clientHeight: height } = get("scene");
-    hits.filter((event) => event.point && Math.abs(event.t - state.time) < SEEN_S).slice(0, 4).forEach((event) => wanted.push([event.names.join(" × "), event.point, "hit"]));
+    touching().slice(0, 4).forEach((event) => wanted.push([event.names.join(" × "), event.point, "hit"]));
     if (shown.names) {
       framesNow(places).forEach(({ name, pose }) => wanted.push([name, Pose.place(pose), ""]));
       run.bodies.forEach((body, n) => { if (places.bodies[n] && body.kind !== "arm" && body.kind !== "jaw" && wanted.length < 60) wanted.push([body.name, Pose.place(places.bodies[n]), ""]); });

@@ -189,7 +189,7 @@ class Bar {
     this.run.events.forEach((event) => {
       const heavy = event.kind === "collision" || event.kind === "fault";
       ink.fillStyle = MARKS[event.kind] || "#7a5195";
-      if (heavy) ink.fillRect(x(event.t) - scale / 2, 0, scale, height);
+      if (heavy) ink.fillRect(x(event.t) - scale / 2, 0, Math.max(scale, event.until ? x(event.until) - x(event.t) : 0), event.until ? 4 * scale : height);
       ink.beginPath();
       ink.arc(x(event.t), 6 * scale, (heavy ? 5 : 3.5) * scale, 0, 7);
       ink.fill();
