@@ -174,7 +174,7 @@ def moves(draw: st.DrawFn) -> ir.Move:
         "without_offsets": st.booleans(),
         "group": st.integers(1, 5),
         "identity": small,
-        "motion_class": st.sampled_from(("classic", "spline")),
+        "motion_class": st.sampled_from(("classic", "spline", "process", "velocity", "servo")),
     }
     chosen = draw(st.lists(st.sampled_from(sorted(settings)), unique=True, max_size=4))
     kind = draw(st.sampled_from(("joint", "linear", "circular", "spline")))
