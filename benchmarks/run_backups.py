@@ -39,11 +39,12 @@ from rpl.depth import at_any_depth
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.robotfile import robot_summaries
 from rpl.errors import RplError
-from rpl.inventory.contents import Program, contents
+from rpl.inventory.contents import Program, contents, place_of
 from rpl.inventory.outside import Outside
 from rpl.inventory.robots import arms_of
 from rpl.linking import link
 from rpl.linking.program import LinkedProgram
+from rpl.passes.kept import unset_reads
 from rpl.passes.unsetsettings import settings_as_they_were
 from rpl.project import ReadProgram, read_program, recognise
 from rpl.runtime.limits import DEFAULTS
@@ -92,7 +93,8 @@ _IDLE_SHARE = 0.5  # a run whose last move or output lies this share of its time
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """How one entry program ended. `what`: the input, routine or datum; `place` as file:line; `program`: where it
-    stands, `digest` of that file. The last ones: how many data were assumed, and how the program ended with them."""
+    stands, `digest` of that file. Then how many data were assumed, how the program ended with them, and which they are,
+    with value and place; and how many registers it may read that no file gives and that begin at zero."""
 
     project: str
     language: str
@@ -110,6 +112,8 @@ class Outcome:
     assumed_kind: str = ""
     assumed_what: str = ""
     assumed_place: str = ""
+    assumed_data: str = ""
+    zeros: int = 0
 
     def in_the_end(self) -> str:
         """The class with assumed data: that of the program as it is, or one of its own."""
@@ -213,7 +217,8 @@ def measure(task: tuple[str, list[Path], float, float], whole: bool = False) -> 
         linked = at_any_depth(lambda: link(program))
         digests = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
         project = _Project(name, read, linked, robot, max_time, seconds)
-        outcomes = [_shortened(project.outcome(one)) for one in found.entries]
+        zeros = Counter(root.lower() for one in unset_reads(program) if not one.may_be_set for root in one.roots)
+        outcomes = [replace(_shortened(project.outcome(one)), zeros=zeros[one.name.lower()]) for one in found.entries]
         return [replace(one, digest=digests.get(one.program.partition(":")[0], "")) for one in outcomes]
     except RplError as error:
         return [Outcome(name, "", "", "refused", str(error)[:120], "", "", 0.0, 0, 0)]
@@ -317,10 +322,10 @@ def _end(number: int, frame: FrameType | None) -> None:
 def _ended(said: Outcome, result: RunResult) -> Outcome:
     origin = result.fault.origin if result.fault is not None else None
     place = f"{PurePath(origin.file).name}:{origin.line}" if origin is not None and origin.source else said.place
-    assumed = len(result.assumed or ())
-    return replace(
-        said, place=place, time_s=result.time_s, moves=result.moves, statements=result.statements, assumed=assumed
-    )
+    said = replace(said, place=place, time_s=result.time_s, moves=result.moves, statements=result.statements)
+    given = result.assumed or ()
+    data = "; ".join(f"{one.name} = {one.shown} ({place_of(one.origin)})" for one in given)
+    return replace(said, assumed=len(given), assumed_data=data)
 
 
 def _language(read: ReadProgram, one: Program) -> str:
@@ -444,6 +449,9 @@ def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield f"on the arm that the backup names {named}, on a guessed one {guessed}, without an arm the others"
     needed = [one.assumed for one in outcomes if one.assumed]
     yield f"{len(needed)} programs with assumed data, {sum(needed)} data in all, at most {max(needed, default=0)}"
+    kept = [one for one in outcomes if one.zeros]
+    ran = sum(one.counts for one in kept)
+    yield f"{len(kept)} programs ({ran} of those counted) may read registers that no file gives: they begin at zero"
 
 
 def share(outcomes: Sequence[Outcome], assumed: bool = False) -> float:

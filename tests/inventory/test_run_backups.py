@@ -76,6 +76,7 @@ def test_classes_with_assumed_data(tmp_path: Path, body: str, kind: str, what: s
     assert outcome.kind == "unknown data"
     assert (outcome.assumed_kind, outcome.assumed_what.partition(" at /")[0]) == (kind, what)
     assert outcome.assumed == ("lost" in body) + ("seen" in body)
+    assert ("lost = " in outcome.assumed_data) == ("lost" in body)
     text = "\n".join(run_backups.table([outcome]))
     assert f"{kind} with assumed data" in text and "share as they are, %" in text
 
