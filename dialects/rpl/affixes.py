@@ -95,7 +95,7 @@ def with_affixments(
     work = _Affixments(ProgramScope(program), statements, fixed, diagnostics)
     work.resolve()
     work.settle()
-    return replace(program, modules=tuple(work.in_module(module) for module in program.modules))
+    return replace(program, modules=work.modules())
 
 
 def _key(origin: Origin) -> Key:
@@ -117,6 +117,7 @@ class _Affixments:
     moved: dict[int, str] = field(default_factory=dict)  # frame -> the procedure that a change of it calls
     meant: dict[Key, Pair] = field(default_factory=dict)  # the pairs of the statements that are as they should be
     added: dict[int, tuple[list[ir.Variable], list[ir.Routine]]] = field(default_factory=dict)  # to modules
+    called: set[str] = field(default_factory=set)  # the procedures that are needed
     released: dict[int, list[Pair]] = field(default_factory=dict)  # by the routine that opens a gripper
     with_tool: set[int] = field(default_factory=set)  # the frames that hang together with the tool
     carried: set[int] = field(default_factory=set)  # those of them that the tool can carry along
@@ -283,12 +284,18 @@ class _Affixments:
 
     # ---- the program with them
 
-    def in_module(self, module: ir.Module) -> ir.Module:
-        """The module with its statements replaced and followed by what they ask for, and with what was added to it."""
-        routines = tuple(self._in_routine(one, self.scopes.routine(module, one)) for one in module.routines)
-        variables, procedures = self.added.get(id(module), ([], []))
-        declarations = (*module.declarations, *variables)
-        return replace(module, declarations=declarations, routines=(*routines, *procedures))
+    def modules(self) -> tuple[ir.Module, ...]:
+        """The modules with their statements replaced and followed by what they ask for, and with what was added."""
+        bodies = {
+            id(module): tuple(self._in_routine(one, self.scopes.routine(module, one)) for one in module.routines)
+            for module in self.scopes.program.modules
+        }
+        done = []
+        for module in self.scopes.program.modules:
+            variables, procedures = self.added.get(id(module), ([], []))
+            routines = (*bodies[id(module)], *(one for one in procedures if one.name in self.called))
+            done.append(replace(module, declarations=(*module.declarations, *variables), routines=routines))
+        return tuple(done)
 
     def _in_routine(self, routine: ir.Routine, scope: Scope) -> ir.Routine:
         nodes = list(walk(routine))
@@ -316,6 +323,7 @@ class _Affixments:
         return replace(done, body=(self._call(TOOL, quiet), *loose, *done.body))
 
     def _call(self, frame: ir.Variable, origin: Origin) -> ir.CallRoutine:
+        self.called.add(self.moved[id(frame)])
         return ir.CallRoutine(self.moved[id(frame)], origin=_quiet(origin))
 
     def _followed(self, statement: ir.Statement, scope: Scope, known: str) -> tuple[ir.Statement, ...]:

@@ -117,10 +117,13 @@ class Following:
 
     def body(self, frame: ir.Variable) -> ir.Body:
         """What follows a change of the frame; empty where that is nothing."""
-        moved = self._moved(frame, (frame,))
-        return (*moved, *self._taken_anew(frame))
+        self._moved(frame, (frame,), None)
+        changing = {id(frame), *self.frames}
+        self.steps = 0
+        return (*self._moved(frame, (frame,), changing), *self._taken_anew(frame, changing))
 
-    def _moved(self, frame: ir.Variable, way: tuple[ir.Variable, ...]) -> ir.Body:
+    def _moved(self, frame: ir.Variable, way: tuple[ir.Variable, ...], changing: set[int] | None) -> ir.Body:
+        """changing: all the frames that can change with the first one, once they are known."""
         done: list[ir.Statement] = []
         for pair in self.pairs:
             if pair.parent is frame:
@@ -134,16 +137,23 @@ class Following:
             self.steps += 1
             self.frames[id(other)] = other
             self._reached.add((id(pair), id(other)))
-            inner = (step(pair.origin), *self._moved(other, (*way, other)))
-            done.append(ir.If(((ir.Name(asked, origin=pair.origin), inner),), origin=pair.origin))
+            left = [one for one in self.pairs if one is not pair and one.child is other and changing is not None]
+            inner = (step(pair.origin), *self._moved(other, (*way, other), changing))
+            anew = tuple(_taken_anew(one) for one in left if one.one_way and id(one.parent) not in (changing or ()))
+            done.append(ir.If(((ir.Name(asked, origin=pair.origin), (*inner, *anew)),), origin=pair.origin))
         return tuple(done)
 
-    def _taken_anew(self, frame: ir.Variable) -> ir.Body:
-        """For the frames that can have moved in another way than by the affixment itself."""
+    def _taken_anew(self, frame: ir.Variable, changing: set[int]) -> ir.Body:
+        """For the frame itself, and for those that can have moved together with what they are affixed to or without it:
+        which it was is known when all have moved. What is affixed to the frame itself has gone with it."""
         done: list[ir.Statement] = []
         for pair in self.pairs:
-            moved = {by for by, reached in self._reached if reached == id(pair.child)}
-            if pair.one_way and (pair.child is frame or moved - {id(pair)}):
-                inner = (pair.retake(pair.origin),)
-                done.append(ir.If(((pair.alone(pair.origin), inner),), origin=pair.origin))
+            others = {by for by, reached in self._reached if reached == id(pair.child)} - {id(pair)}
+            open_yet = others and pair.parent is not frame and id(pair.parent) in changing
+            if pair.one_way and (pair.child is frame or open_yet):
+                done.append(_taken_anew(pair))
         return tuple(done)
+
+
+def _taken_anew(pair: Pair) -> ir.If:
+    return ir.If(((pair.alone(pair.origin), (pair.retake(pair.origin),)),), origin=pair.origin)
