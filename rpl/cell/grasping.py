@@ -11,7 +11,7 @@ rotation that brings the facet's normal onto its axis.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,15 +24,19 @@ from rpl.emulator.rotations import FloatArray, invert_pose, pose_matrix, rotatio
 _ROUND_SHARE = 0.01
 # How far the facet under a cup may lean (degrees) for its lip to close. M: bellows allow about this much.
 MOST_LEAN_DEG = 20.0
+# How wide jaws are along their x, for what else is between them. M.
+JAW_MM = 20.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hold:
-    """A part and its pose (4, 4) in the frame of the grip point. `width_mm`: of the jaws then."""
+    """A part and its pose (4, 4) in the frame of the grip point. `width_mm`: of the jaws then. `too`: what else is
+    between them, each as it lay: a double pick."""
 
     part: Part
     pose: FloatArray
     width_mm: float
+    too: tuple[tuple[Part, FloatArray], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,12 +78,26 @@ def _between(gripper: Gripper, grip: FloatArray, free: Free) -> Hold | Miss:
     about[:3, 3] = middle - about[:3, :3] @ middle
     about[2, 3] = 0.0
     held = about @ in_grip
-    across = moved(part.shape.facets.vertices, held)[:, 1]
-    held[1, 3] -= (across.min() + across.max()) / 2.0
-    width = float(across.max() - across.min())
+    too = tuple(_beside(gripper, grip, [one for one in free if one[0] is not part]))
+    rows = [moved(each.shape.facets.vertices, place)[:, 1] for each, place in ((part, held), *too)]
+    low_y, high_y = min(float(row.min()) for row in rows), max(float(row.max()) for row in rows)
+    width, middle_y = high_y - low_y, (low_y + high_y) / 2.0
+    for place in (held, *(place for _, place in too)):
+        place[1, 3] -= middle_y
     if width < low_mm:
         return Miss(f"{width:.1f} mm wide between jaws that close to {low_mm:g} mm", part.name)
-    return Hold(part, held, width)
+    return Hold(part, held, width, too)
+
+
+def _beside(gripper: Gripper, grip: FloatArray, others: Free) -> Iterator[tuple[Part, FloatArray]]:
+    """Further parts that are wholly between the open jaws, with their poses in the frame of the grip point."""
+    half = gripper.opening[1] / 2.0
+    for part, pose in others:
+        in_grip = invert_pose(grip) @ pose
+        low, high = bounds_at(part.shape, in_grip)
+        between = low[1] >= -half and high[1] <= half
+        if between and low[0] <= JAW_MM / 2.0 and high[0] >= -JAW_MM / 2.0 and low[2] <= 0.0 <= high[2]:
+            yield part, in_grip
 
 
 def squeezed(corners: FloatArray) -> float:

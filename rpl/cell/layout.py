@@ -57,7 +57,8 @@ class Switch:
 class Gripper:
     """What a robot holds parts with. `grip` is the pose of the point between its jaws, or of the lip of its cup, on the
     flange, z away from the gripper; jaws close along its y. `opening`: least and greatest distance of the jaws in mm.
-    `misses`: at which of its grasps, counted from 1, it does not hold the part; `chance_of_miss`: of each other one."""
+    `misses`: at which of its grasps, counted from 1, it does not hold the part; `chance_of_miss`: of each other one.
+    `force_n`: with how much it holds a part against its weight and the acceleration of the arm; None: with enough."""
 
     name: str
     kind: Literal["jaws", "suction"]
@@ -74,6 +75,7 @@ class Gripper:
     reach_mm: float = 20.0  # how far from the grip point a part may be
     misses: tuple[int, ...] = ()
     chance_of_miss: float = 0.0
+    force_n: float | None = None
     key: str = ""
 
 

@@ -2,7 +2,7 @@
 
     [[robot]]     name = "left"  arm = "kuka_kr6r900sixx"  programs = ["left.src"]  [entry]  [base]  [joints]
     [[gripper]]   name = "jaws"  kind = "jaws|suction"  close = "do1"  [robot]  [open]  [grip]  [bodies]  [gripped]
-                  [opened]  [closed]  [time]  [opening = [0, 80]]  [reach]  [misses = [2]]  [chance_of_miss]
+                  [opened]  [closed]  [time]  [opening = [0, 80]]  [reach]  [misses = [2]]  [chance_of_miss]  [force]
     [[fixture]]   name = "table"  FORM  [at]  [restitution]      or bodies = [{ FORM, at = [...] }, ...]
     [[bin]]       name = "bin"  inside = [300, 200, 120]  [wall]  [at]  [restitution]
     [[part]]      name = "cube"  FORM  [at]  [mass]  [restitution]  [copies = 12] with one of
@@ -201,7 +201,7 @@ class LayoutReader(RowReader):
 
     def gripper(self, key: str, row: dict[str, Value]) -> Gripper:
         more = ("robot", "open", "grip", "bodies", "gripped", "opened", "closed", "time", "opening", "reach")
-        self.known(key, row, ("name", "kind", "close"), (*more, "misses", "chance_of_miss"))
+        self.known(key, row, ("name", "kind", "close"), (*more, "misses", "chance_of_miss", "force"))
         kind = row["kind"]
         if kind not in ("jaws", "suction"):
             raise self.wrong(f"{key}.kind", f"must be jaws or suction, not {kind!r}")
@@ -224,6 +224,7 @@ class LayoutReader(RowReader):
             self.number(key, row, "reach", 20.0),
             self.times(key, row, "misses"),
             self.number(key, row, "chance_of_miss", 0.0, most=1.0),
+            self.number(key, row, "force", 0.0, above=0.0) if "force" in row else None,
             key,
         )
 

@@ -8,13 +8,13 @@ queue and no program: the machines of the robots, which it asks for time and fla
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
 
-from rpl.cell.falling import PRESSED_MM, Laws, Obstacle, below, fall, obstacle_of, obstacles_of
+from rpl.cell.falling import GRAVITY_MM_S2, PRESSED_MM, Laws, Obstacle, below, fall, obstacle_of, obstacles_of
 from rpl.cell.grasping import Hold, Miss, grasp
 from rpl.cell.layout import Gripper, Layout, Part, Sensor, Switch
 from rpl.cell.record import Grasp, Opening, Placed
@@ -24,6 +24,8 @@ from rpl.errors import UsageError
 
 # While an arm with a part moves, sensors are looked at so often (s).
 LOOK_S = 0.02
+# Steps (s) in which the acceleration of what is held is looked at.
+STRAIN_S = 0.008
 # A part that stands deeper than this in a fixture at the start is a mistake of the cell file.
 _DEEPEST_MM = 1.0
 
@@ -65,6 +67,7 @@ class World:
         self.layout = layout
         self.random = random.Random(seed)
         self.movers: dict[str, Mover] = {}
+        self.way: dict[str, int] = {}  # how many ways each robot has begun
         self.grips = {one.name: _Grip() for one in layout.grippers}
         self.there: dict[str, _There] = {}
         self.to_come: list[Part] = []
@@ -154,8 +157,14 @@ class World:
                 yield Switch(wire.output, True), f"on {number}"
                 yield Switch(wire.output, False), f"off {number}"
 
-    def begins(self, robot: str, start_s: float, end_s: float) -> None:
-        """An arm moves from one moment to another: what it holds passes sensors."""
+    def begins(self, robot: str, start_s: float, end_s: float, way: Callable[[FloatArray], FloatArray]) -> None:
+        """An arm moves from one moment to another: what it holds passes sensors, and may be too heavy. `way` gives the
+        flange in the cell (k, 4, 4) at times (k,)."""
+        self.way[robot] = self.way.get(robot, 0) + 1
+        for one in self._grippers(robot):
+            slips = self._slips(one, start_s, end_s, way)
+            if slips is not None:
+                self.movers[robot].deed_later(slips[0], f"slip {self.way[robot]} {slips[1]:.1f} {one.name}")
         if self.layout.sensors and any(self.grips[one.name].holds for one in self._grippers(robot)):
             mover = self.movers[robot]
             for number in range(1, int((end_s - start_s) / LOOK_S) + 1):
@@ -178,6 +187,10 @@ class World:
                     self.placed.append(Placed(mover.now, part, "gone", at.pose))
             case "close":
                 self._close(mover, self._gripper(name))
+            case "slip":
+                number, needed, gripper = name.split(" ", 2)
+                if self.way[robot] == int(number) and self.grips[gripper].holds:
+                    self._slip(mover, self._gripper(gripper), needed)
             case "hold":
                 number, _, gripper = name.partition(" ")
                 self._hold(mover, self._gripper(gripper), int(number))
@@ -192,6 +205,33 @@ class World:
         self._look(mover.now)
 
     # ---- grippers
+
+    def _slips(
+        self, gripper: Gripper, start_s: float, end_s: float, way: Callable[[FloatArray], FloatArray]
+    ) -> tuple[float, float] | None:
+        """When (s) a gripper loses what it holds on a way, and the force (N) that it would have needed: mass times
+        acceleration against gravity, of the centre of mass."""
+        holds = self.grips[gripper.name].holds
+        if gripper.force_n is None or not holds or end_s - start_s < 2.0 * STRAIN_S:
+            return None
+        times = np.arange(start_s, end_s, STRAIN_S)
+        flanges = way(times)
+        needed = np.zeros(max(len(times) - 2, 0))
+        for name, pose in holds.items():
+            part = self._by_name[name]
+            centre = pose[:3, :3] @ part.shape.facets.centre + pose[:3, 3]
+            places = flanges[:, :3, :3] @ centre + flanges[:, :3, 3]
+            pulls = np.diff(places, 2, axis=0) / STRAIN_S**2 + (0.0, 0.0, GRAVITY_MM_S2)
+            needed += (part.mass_kg or 0.0) * np.linalg.norm(pulls, axis=1) / 1000.0
+        beyond = np.flatnonzero(needed > gripper.force_n)
+        return (float(times[beyond[0] + 1]), float(needed.max())) if len(beyond) else None
+
+    def _slip(self, mover: Mover, gripper: Gripper, needed: str) -> None:
+        """What it holds falls out of a closed gripper."""
+        held = ", ".join(self.grips[gripper.name].holds)
+        why = f"lost on the way: {needed} N are needed, it holds {gripper.force_n:g} N"
+        self.grasps.append(Grasp(mover.now, gripper.name, held, False, why))
+        self._let_go(mover, gripper)
 
     def _close(self, mover: Mover, gripper: Gripper) -> None:
         grip = self.grips[gripper.name]
@@ -222,17 +262,18 @@ class World:
             if gripper.closed:
                 mover.input_later(now, gripper.closed, True)
             return
-        before = self.there[found.part.name].pose
-        in_flange = gripper.grip @ found.pose
-        for name in (found.part.name, *self._upon(found.part.name)):
-            there = self.there[name]
-            carried = in_flange @ invert_pose(before) @ there.pose
-            there.held_by, there.on = gripper.name, gripper.name
-            grip.holds[name] = carried
-            self.placed.append(Placed(now, name, "held", carried, gripper.name))
-            self._will_come(name, now)
-        others = [name for name in grip.holds if name != found.part.name]
-        self.grasps.append(Grasp(now, gripper.name, found.part.name, True, f"with {', '.join(others)}" * bool(others)))
+        for part, in_grip in ((found.part, found.pose), *found.too):
+            before = self.there[part.name].pose
+            for name in (part.name, *self._upon(part.name)):
+                there = self.there[name]
+                carried = gripper.grip @ in_grip @ invert_pose(before) @ there.pose
+                there.held_by, there.on = gripper.name, gripper.name
+                grip.holds[name] = carried
+                self.placed.append(Placed(now, name, "held", carried, gripper.name))
+                self._will_come(name, now)
+        others = ", ".join(name for name in grip.holds if name != found.part.name)
+        why = f"{'double pick: ' * bool(found.too)}with {others}" if others else ""
+        self.grasps.append(Grasp(now, gripper.name, found.part.name, True, why))
         self.openings.append(Opening(now, gripper.name, False, found.width_mm))
         if gripper.gripped:
             mover.input_later(now, gripper.gripped, True)
@@ -243,12 +284,16 @@ class World:
             return
         grip.closed = False
         self.openings.append(Opening(now, gripper.name, True, gripper.opening[1]))
-        if gripper.gripped and grip.holds:
-            mover.input_later(now, gripper.gripped, False)
         if gripper.closed and not grip.holds:
             mover.input_later(now, gripper.closed, False)
         if gripper.opened:
             mover.deed_later(now + gripper.time_s, f"opened {grip.closes} {gripper.name}")
+        self._let_go(mover, gripper)
+
+    def _let_go(self, mover: Mover, gripper: Gripper) -> None:
+        grip, now = self.grips[gripper.name], mover.now
+        if gripper.gripped and grip.holds:
+            mover.input_later(now, gripper.gripped, False)
         flange = mover.flange_in_cell()
         held, grip.holds = grip.holds, {}
         # The lowest first: what it carries comes to lie on it.

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from rpl.cell import parse_cell, read_cell
+from rpl.cell.shapes import Box
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
+from rpl.emulator.rotations import pose_matrix
 from rpl.errors import UsageError
 from rpl.project import read_program
 from rpl.runtime.limits import DEFAULTS
@@ -190,6 +192,34 @@ def test_a_held_part_passes_a_sensor():
     assert [value for _, value in seen] == [True, False]
     taken, let_go = made.grasps[1].t, made.openings[-1].t
     assert taken < seen[0][0] < seen[1][0] < let_go
+
+
+def test_what_is_too_heavy_for_its_acceleration_is_lost():
+    """0.4 kg at rest need 3.9 N. The arm accelerates with several m/s2 on its way: 4.0 N are too few, 20 N enough."""
+    cell = cell_of("box_pick/krl.toml")
+    ok = {}
+    for force in (4.0, 20.0):
+        gripper = replace(cell.layout.grippers[0], misses=(), force_n=force)
+        made = run(replace(cell, layout=replace(cell.layout, grippers=(gripper,))))
+        ok[force] = [one.ok for one in made.grasps]
+        if force == 4.0:
+            assert made.grasps[-1].why.startswith("lost on the way: ")
+            assert ends(made) == {"box": ("rests", "table")}
+    assert ok == {4.0: [True, False], 20.0: [True]}
+
+
+def test_two_parts_between_the_jaws_are_a_double_pick():
+    cell = cell_of("box_pick/krl.toml")
+    one = cell.layout.parts[0]
+    thin = Box((60.0, 30.0, 50.0))
+    parts = tuple(
+        replace(one, name=name, shape=thin, at=pose_matrix((500.0, y, 25.0)))
+        for name, y in (("a", -185.0), ("b", -216.0))
+    )
+    gripper = replace(cell.layout.grippers[0], misses=())
+    made = run(replace(cell, layout=replace(cell.layout, grippers=(gripper,), parts=parts)))
+    assert [(each.part, each.ok, each.why) for each in made.grasps] == [("a", True, "double pick: with b")]
+    assert ends(made) == {"a": ("rests", "table"), "b": ("rests", "table")}
 
 
 def test_repeated_runs_are_the_same_over_processes():
