@@ -23,6 +23,7 @@ Facets of a curved face are one state: passes between them are so low that they 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -66,7 +67,7 @@ class _Group:
 
     def weight(self, height: float) -> float:
         flat = max(self.share - self.energy / height, 0.0)
-        return flat + sum(share * max(1.0 - mean / height, 0.0) ** k for share, mean, k in self.curved)
+        return flat + sum(share * math.pow(max(1.0 - mean / height, 0.0), k) for share, mean, k in self.curved)
 
     def take(self, other: _Group) -> None:
         self.share += other.share
