@@ -17,11 +17,11 @@ from rpl.report.signals import signal_rows
 from rpl.source import Source
 from rpl.view.bodies import Drawn, robot_of
 from rpl.view.packing import packed
-from rpl.view.scene import Scene, first_width, places_in
+from rpl.view.scene import Scene, first_width
 from rpl.view.tracks import Track, short_names, sources_of
 
 if TYPE_CHECKING:
-    from rpl.cell.layout import Part
+    from rpl.cell.record import Placed
     from rpl.workcell.record import RobotRun
 
 # What the long arrays are rounded to: far below what one sees, and what the size of the page allows.
@@ -50,7 +50,7 @@ def view_document(scene: Scene, title: str) -> Row:
         ],
         "bodies": [_body(one, shapes, places) for one in scene.bodies],
         "shapes": shapes,
-        "parts": [_part(scene, one) for one in run.layout.parts],
+        "parts": [_part(scene, places) for places in scene.places],
         "grippers": [_gripper(scene, number) for number in range(len(run.layout.grippers))],
         "signals": [row for number, one in enumerate(run.robots) for row in _signals(one, number)],
         "events": _events(scene, names),
@@ -117,12 +117,11 @@ def _shape(shape: Shape) -> Row:
     return {"v": packed(facets.vertices, VERTEX_MM), "f": packed(facets.faces.astype(np.float64), 1.0)}
 
 
-def _part(scene: Scene, part: Part) -> list[list[object]]:
+def _part(scene: Scene, places: Sequence[Placed]) -> list[list[object]]:
     """Places of a part by time: s, what it does, the robot that holds it or -1, its pose."""
     holders = {one.name: robot_of(scene.run, one.robot) for one in scene.run.layout.grippers}
     return [
-        [round(one.t, 4), one.state, holders[one.on] if one.state == "held" else -1, row_of(one.pose)]
-        for one in places_in(scene.run, part)
+        [round(one.t, 4), one.state, holders[one.on] if one.state == "held" else -1, row_of(one.pose)] for one in places
     ]
 
 

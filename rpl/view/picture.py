@@ -70,7 +70,8 @@ def _edges(facets: Facets, corners: NDArray[np.int64]) -> FloatArray:
 def picture(scene: Scene, t: float, view: str = "isometric", size: tuple[int, int] = SIZE) -> bytes:
     """The cell at a time from one of the views (`rpl.view.camera.VIEWS`), as a PNG file."""
     width, height = size[0] * FINER, size[1] * FINER
-    drawn = _Picture(scene, t, Camera.around(bounds_of(scene), view, width / height), width, height)
+    bounds = bounds_of(scene)
+    drawn = _Picture(scene, t, Camera.around(bounds, view, width / height), bounds, width, height)
     fine = drawn.pixels.reshape(size[1], FINER, size[0], FINER, 3).mean(axis=(1, 3))
     return png(np.rint(np.clip(fine, 0.0, 255.0)).astype(np.uint8))
 
@@ -92,13 +93,12 @@ def bounds_of(scene: Scene) -> FloatArray:
 class _Picture:
     """What is drawn, in the order in which it is: ground, bodies with their edges, paths, frames, sensors."""
 
-    def __init__(self, scene: Scene, t: float, camera: Camera, width: int, height: int) -> None:
+    def __init__(self, scene: Scene, t: float, camera: Camera, bounds: FloatArray, width: int, height: int) -> None:
         self.scene, self.camera, self.canvas = scene, camera, Canvas(width, height)
         self.pixels: FloatArray = np.tile(np.array(GROUND), (width * height, 1))
         poses = scene.poses_at(t)
         now = scene.collisions_at(t)
         names = {name for one in now for name in (one.a, one.b)}
-        bounds = bounds_of(scene)
         extent = max(float(np.linalg.norm(bounds[1] - bounds[0])) / 2.0, 100.0)
         rows = [
             (body.shape, _behind(pose, body.link, camera), RED if body.name in names else body.colour)

@@ -36,17 +36,20 @@ class Canvas:
         seen &= (low[:, 0] < self.width) & (low[:, 1] < self.height)
         low = np.clip(low, 0, [self.width - 1, self.height - 1])
         high = np.clip(high, 0, [self.width - 1, self.height - 1])
-        sizes = (high - low).max(axis=1, initial=0) + 1
-        classes = np.ceil(np.log2(np.maximum(sizes, 2))).astype(np.int64)
+        # By the size of the boxes around them, wide and high by powers of the root of two.
+        sizes = np.ceil(2.0 * np.log2(np.maximum(high - low + 1, 2))).astype(np.int64)
+        classes = sizes[:, 0] * 64 + sizes[:, 1]
         for number in np.unique(classes[seen]):
             rows = np.flatnonzero(seen & (classes == number))
-            side = 2 ** int(number)
-            step = max(_AT_ONCE // (side * side), 1)
+            width, height = (int(np.ceil(2.0 ** (part / 2.0))) for part in divmod(int(number), 64))
+            step = max(_AT_ONCE // (width * height), 1)
             for begin in range(0, len(rows), step):
-                self._group(corners, rows[begin : begin + step], low, side)
+                self._group(corners, rows[begin : begin + step], low, width, height)
 
-    def _group(self, corners: FloatArray, rows: NDArray[np.int64], low: NDArray[np.int64], side: int) -> None:
-        y, x = np.mgrid[0:side, 0:side]
+    def _group(
+        self, corners: FloatArray, rows: NDArray[np.int64], low: NDArray[np.int64], width: int, height: int
+    ) -> None:
+        y, x = np.mgrid[0:height, 0:width]
         px, py = low[rows, 0][:, None, None] + x, low[rows, 1][:, None, None] + y
         weights = barycentric(corners[rows][:, :, :2, None, None], px + 0.5, py + 0.5)
         inside = (weights >= -1e-9).all(axis=1) & (px < self.width) & (py < self.height)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -16,7 +17,6 @@ from rpl.view.bodies import Drawn, bodies_of, robot_of
 from rpl.view.tracks import Track, track_of
 
 if TYPE_CHECKING:
-    from rpl.cell.layout import Part
     from rpl.workcell.collisions import Collision
     from rpl.workcell.record import CellRun
 
@@ -27,12 +27,13 @@ SEEN_S = 0.25
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """A run with all that is needed to draw it."""
+    """A run with all that is needed to draw it. `places`: of each part by time."""
 
     run: CellRun
     bodies: tuple[Drawn, ...]
     tracks: tuple[Track, ...]
     screws: tuple[Screws | None, ...]
+    places: tuple[tuple[Placed, ...], ...]
     collisions: tuple[Collision, ...] = ()
 
     def links_at(self, robot: int, joints: FloatArray) -> FloatArray:
@@ -79,13 +80,13 @@ class Scene:
         run = self.run
         found: list[FloatArray | None] = []
         holders = {one.name: robot_of(run, one.robot) for one in run.layout.grippers}
-        for part in run.layout.parts:
-            places = places_in(run, part)
-            here = [one for one in places if one.t <= t + 1e-9]
-            if not here or here[-1].state == "gone":  # it has not come yet, or was taken away
+        for places in self.places:
+            number = bisect_right(places, t + 1e-9, key=lambda one: one.t)
+            if number == 0 or places[number - 1].state == "gone":  # it has not come yet, or was taken away
                 found.append(None)
                 continue
-            pose, holder = pose_between(places, max(t, here[-1].t))
+            here = places[number - 1]
+            pose, holder = pose_between(places[number - 1 : number + 1], max(t, here.t))
             if holder and (held := joints[holders[holder]]) is not None:
                 pose = self.flange_at(holders[holder], held) @ pose
             found.append(pose)
@@ -109,10 +110,16 @@ class Scene:
         return width
 
 
-def places_in(run: CellRun, part: Part) -> list[Placed]:
-    """The places of a part by time. One that the run says nothing of rests where the cell has it, unless a feeder
+def _places_in(run: CellRun) -> tuple[tuple[Placed, ...], ...]:
+    """Of each part its places by time. One that the run says nothing of rests where the cell has it, unless a feeder
     brings it."""
-    return run.places_of(part.name) or ([Placed(0.0, part.name, "rests", part.at)] if part.again_s is None else [])
+    found: dict[str, list[Placed]] = {}
+    for one in run.placed:
+        found.setdefault(one.part, []).append(one)
+    for part in run.layout.parts:
+        if part.again_s is None:
+            found.setdefault(part.name, [Placed(0.0, part.name, "rests", part.at)])
+    return tuple(tuple(found.get(part.name, ())) for part in run.layout.parts)
 
 
 def first_width(opening: tuple[float, float]) -> float:
@@ -123,4 +130,5 @@ def first_width(opening: tuple[float, float]) -> float:
 def scene_of(run: CellRun, collisions: Sequence[Collision] = ()) -> Scene:
     """All that is needed to draw a run."""
     screws = tuple(None if one.model is None else screws_of(one.model) for one in run.robots)
-    return Scene(run, bodies_of(run), tuple(track_of(one) for one in run.robots), screws, tuple(collisions))
+    tracks = tuple(track_of(one) for one in run.robots)
+    return Scene(run, bodies_of(run), tracks, screws, _places_in(run), tuple(collisions))

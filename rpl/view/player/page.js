@@ -126,7 +126,7 @@
       if (!seen) return;
       if (label.textContent !== wanted[n][0]) label.textContent = wanted[n][0];
       label.className = wanted[n][2];
-      label.style.transform = "translate(" + (seen[0] + 8).toFixed(1) + "px, " + (seen[1] - 9).toFixed(1) + "px)";
+      label.style.transform = "translate(" + (seen[0] + 8).toFixed(1) + "px, " + (seen[1] - 9 + (wanted[n][2] ? 18 * n : 0)).toFixed(1) + "px)"; // those of collisions below each other
     });
   }
 
