@@ -89,6 +89,9 @@ class RoutineMeaning:
     set: tuple[tuple[str, Value], ...] = ()
 
 
+NO_BODIES = Layout()
+
+
 @dataclass(frozen=True, slots=True)
 class Cell:
     """Everything a cell file says. `assume_data`: data without a value gets one when it is first read."""
@@ -107,7 +110,7 @@ class Cell:
     analog: tuple[AnalogSetting, ...] = ()
     routines: Mapping[str, RoutineMeaning] = field(default_factory=dict)  # by folded name
     assume_data: bool = False
-    layout: Layout = field(default_factory=Layout)
+    layout: Layout = NO_BODIES
 
 
 def read_cell(path: str | Path) -> Cell:
@@ -197,7 +200,7 @@ class _Reader(RowReader):
             tuple(self.analog(table.get("analog", {}))),
             dict(self.routine(key, row) for key, row in self.rows(table, "routine")),
             assume,
-            LayoutReader(self.path, self.lines).layout(table),
+            LayoutReader(self.path, self.lines).layout(table) or NO_BODIES,  # such cells are equal
         )
 
     def system(self, name: str, value: Value) -> None:
