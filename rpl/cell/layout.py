@@ -6,8 +6,8 @@ read. What is said here never changes while a program runs; where the parts are 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -174,3 +174,37 @@ class Layout:
     @property
     def by_name(self) -> Mapping[str, Part]:
         return {one.name: one for one in self.parts}
+
+    def signals(self) -> Iterator[str]:
+        """Every signal that bodies are wired to, of a cell of one robot."""
+        for gripper in self.grippers:
+            named = (gripper.close.signal, gripper.gripped, gripper.opened, gripper.closed)
+            yield from (one for one in named if one)
+            if gripper.open is not None:
+                yield gripper.open.signal
+        yield from (one.signal for one in self.sensors)
+        yield from (one.when.signal for one in self.removals)
+
+    def spelled(self, name: Callable[[str], str]) -> Layout:
+        """The same bodies, wired to signals of other names."""
+
+        def switch(given: Switch) -> Switch:
+            return replace(given, signal=name(given.signal))
+
+        def of(signal: str) -> str:
+            return name(signal) if signal else ""
+
+        grippers = tuple(
+            replace(
+                one,
+                close=switch(one.close),
+                open=switch(one.open) if one.open is not None else None,
+                gripped=of(one.gripped),
+                opened=of(one.opened),
+                closed=of(one.closed),
+            )
+            for one in self.grippers
+        )
+        sensors = tuple(replace(one, signal=name(one.signal)) for one in self.sensors)
+        removals = tuple(replace(one, when=switch(one.when)) for one in self.removals)
+        return replace(self, grippers=grippers, sensors=sensors, removals=removals)

@@ -116,6 +116,7 @@ def run_among_bodies(cell: Cell, asked: CellAsked, write: Callable[[CellRun, Seq
 
 def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
     """The robots with their programs; None where one has errors, which are shown."""
+    from rpl.proof.cellnames import report_unknown_signals
     from rpl.workcell.loading import Loaded, robots_of, settled
     from rpl.workcell.running import Driven
 
@@ -140,6 +141,8 @@ def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
         found = robots_of(cell, diagnostics)  # without any the parts fall, and that is all
     else:
         raise UsageError("no program: name its PATH, or give the robots of the cell file `programs`")
+    if len(found) == 1:
+        report_unknown_signals(found[0].driven.program, cell, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
     if diagnostics.has_errors and not asked.despite_errors:
         count = counted(len(diagnostics.of(Severity.ERROR)), "error")

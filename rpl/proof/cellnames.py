@@ -123,6 +123,8 @@ def _named(cell: Cell) -> Iterator[str]:
         yield reaction.signal
     for meaning in cell.vendor:
         yield from (name for name, _ in meaning.set)
+    if len(cell.layout.robots) < 2:
+        yield from cell.layout.signals()
 
 
 def _source(cell: Cell) -> Source | None:

@@ -218,7 +218,7 @@ def in_words_of(cell: Cell, first: ir.Program, second: ir.Program, kept: Mapping
         return cell
     if cell.variables:
         cell = _in_names_of(_in_bases_of(cell, first, second), kept or {}, first, second)
-    if not (cell.inputs or cell.reactions):
+    if not (cell.inputs or cell.reactions or cell.layout):
         return cell
     known, spell = link(first).alias, registry.dialect(*theirs).signal_name
     declared = {name for module in first.modules for name in _declared(module)}
@@ -256,6 +256,7 @@ def in_words_of(cell: Cell, first: ir.Program, second: ir.Program, kept: Mapping
             )
             for one in cell.reactions
         ),
+        layout=cell.layout.spelled(named),
     )
 
 

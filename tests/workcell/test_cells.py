@@ -15,9 +15,12 @@ from rpl.emulator.model import load_robot
 from rpl.emulator.rotations import pose_matrix
 from rpl.errors import UsageError
 from rpl.project import read_program
+from rpl.proof.prove import prove_programs
+from rpl.proof.wiring import in_words_of
 from rpl.runtime.limits import DEFAULTS
 from rpl.simulation import Simulation, run_program
 from rpl.source import source_from_bytes
+from rpl.translation import translate_program
 from rpl.workcell.collisions import find_collisions
 from rpl.workcell.loading import robots_of
 from rpl.workcell.outcome import outcome_of
@@ -192,6 +195,20 @@ def test_a_held_part_passes_a_sensor():
     assert [value for _, value in seen] == [True, False]
     taken, let_go = made.grasps[1].t, made.openings[-1].t
     assert taken < seen[0][0] < seen[1][0] < let_go
+
+
+@pytest.mark.parametrize("target", ["rapid", "vplus", "urscript", "tp"])
+def test_a_translation_meets_the_same_bodies(target):
+    """Its gripper is wired to the same output, whatever the target calls it: it misses, and takes, at the same places."""
+    cell, arm = cell_of("box_pick/krl.toml"), "kuka_kr6r900sixx"
+    read = read_program([SAMPLES / "box_pick" / name for name in ("box_pick.src", "box_pick.dat")])
+    made = translate_program(read.program, target, arm, None, Diagnostics())
+    theirs = read_program([source_from_bytes(one.path, one.data) for one in made.files], target)
+    verdict = prove_programs(read.program, theirs.program, arm, None, cell)
+    assert verdict.verdict != "different", verdict.first_difference
+    run_of_theirs = run_program(theirs.program, arm, in_words_of(cell, read.program, theirs.program))
+    values = [value for _, _, value in run_of_theirs.outputs]
+    assert values == [True, False, True, False]
 
 
 def test_what_is_too_heavy_for_its_acceleration_is_lost():
