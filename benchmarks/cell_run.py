@@ -54,9 +54,8 @@ def main() -> None:
     among = least(options.times, lambda: run_cell(cell, [driven]))
     search = least(options.times, lambda: find_collisions(made))
     print(f"{made.time_s:.1f} s of the robot, {made.robots[0].result.moves} moves, {len(made.grasps)} grasps")
-    print(
-        f"alone {alone:.3f} s, among bodies {among:.3f} s (+{100.0 * (among / alone - 1.0):.0f} %), search {search:.3f} s"
-    )
+    more = 100.0 * (among / alone - 1.0)
+    print(f"alone {alone:.3f} s, among bodies {among:.3f} s (+{more:.0f} %), search {search:.3f} s")
 
 
 if __name__ == "__main__":

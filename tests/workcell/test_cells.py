@@ -199,10 +199,10 @@ def test_a_held_part_passes_a_sensor():
 
 @pytest.mark.parametrize("target", ["rapid", "vplus", "urscript", "tp"])
 def test_a_translation_meets_the_same_bodies(target):
-    """Its gripper is wired to the same output, whatever the target calls it: it misses, and takes, at the same places."""
+    """Its gripper is wired to the same output, whatever the target calls it."""
     cell, arm = cell_of("box_pick/krl.toml"), "kuka_kr6r900sixx"
     read = read_program([SAMPLES / "box_pick" / name for name in ("box_pick.src", "box_pick.dat")])
-    made = translate_program(read.program, target, arm, None, Diagnostics())
+    made = translate_program(read, target, arm, None, Diagnostics())
     theirs = read_program([source_from_bytes(one.path, one.data) for one in made.files], target)
     verdict = prove_programs(read.program, theirs.program, arm, None, cell)
     assert verdict.verdict != "different", verdict.first_difference
