@@ -190,6 +190,14 @@ def test_what_is_reported(text: str, code: str, line: int, words: str) -> None:
     assert len(found) == 1 and f"cell0.rpl:{line}:" in found[0] and code in found[0] and words in found[0], found
 
 
+def test_frames_that_move_each_other_in_too_many_ways() -> None:
+    names = [f"g{number}" for number in range(8)]
+    text = "".join(f"FRAME {name} = {{x: 1, y: 0, z: 0, a: 0, b: 0, c: 0}}\n" for name in names)
+    text += "".join(f"AFFIX {one} TO {other} RIGIDLY\n" for one in names for other in names if one < other)
+    found = read(text)[1]
+    assert len(found) == len(names) and all("affixed-too-often" in item for item in found)
+
+
 def test_frames_of_modules_that_do_not_see_each_other() -> None:
     here = "MODULE a\nFRAME part = {x: 0, y: 0, z: 0, a: 0, b: 0, c: 0}\nGLOBAL PROCEDURE main()\nAFFIX part TO {}\n"
     there = (
