@@ -133,6 +133,7 @@ class RobotModel:
     inertias: ArmInertias | None = None  # what the links weigh, where somebody has published it
     lag: FloatArray | None = None  # time constants (n,) s of following the command, where somebody has measured them
     foot_mm: float = 0.0  # height of the mounting face in the base frame
+    payload_kg: float | None = None  # the class that the maker's name of the model says
     bodies: tuple[BodyFile, ...] = ()  # forms of links that its file gives
     urdf: UrdfSource | None = None
     revolute: BoolArray = field(init=False)  # which joints turn, (n,)
@@ -405,6 +406,7 @@ def _assembled(
         inertias=None if file.weights is None else arm_inertias(file.weights),
         lag=None if file.lag is None else _fixed(file.lag),
         foot_mm=-file.lengths["c1"] if file.origin_at_axis_2 else 0.0,
+        payload_kg=file.payload_kg,
         bodies=file.bodies,
     )
 

@@ -128,8 +128,8 @@ def test_the_sweep_finds_what_fine_sampling_finds(
 
 
 def test_two_arms_that_reach_for_one_place_collide() -> None:
-    places = (RobotPlace("left"), RobotPlace("right", base=at(1000, 0, 0, 180)))
-    start = joints_down(350, 0, 500)
+    places = (RobotPlace("left"), RobotPlace("right", base=at(1020, 0, 0, 180)))
+    start = joints_down(300, 0, 500)
     moving = driven(KUKA, straight(at(520, 0, 500, 0, 180, 0)), start=start)
     other = driven(KUKA, to_joints(*start), straight(at(520, 0, 500, 0, 180, 0)), start=start)
     found = find_collisions(cell(Layout(places), (KUKA, moving), (KUKA, other)))
@@ -152,10 +152,10 @@ def test_a_collision_that_stands_already_begins_at_zero() -> None:
 
 
 def test_an_arm_can_hit_itself() -> None:
-    """Joint 3 of this arm of tests folds until the flange is in the column."""
-    run = driven(KUKA, to_joints(0, -170, 156, 0, 90, 0), start=HOME)
+    """Leaning forward, with the forearm folded back under the upper arm, it comes to its own foot."""
+    run = driven(KUKA, to_joints(0, 40, 147, 0, -50, 0), start=HOME)
     found = who(find_collisions(cell(Layout(ONE), (KUKA, run))))
-    assert found
+    assert ("kuka.base", "kuka.link4") in found
     assert all(a.startswith("kuka.") and b.startswith("kuka.") for a, b in found)
 
 
@@ -165,7 +165,7 @@ def test_neighbours_never_collide(name: str) -> None:
     middle = model.limits.mean(axis=1)
     run = driven(model, to_joints(*(model.home + 0.2 * (middle - model.home))), start=list(model.home))
     for a, b in who(find_collisions(cell(Layout(ONE), (model, run)))):
-        assert abs(int(a[-1]) - int(b[-1])) > 1
+        assert abs(int(a[-1]) - int(b[-1])) > 2
 
 
 JAWS = Gripper(

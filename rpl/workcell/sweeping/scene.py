@@ -175,7 +175,8 @@ class _Builder:
             self.ways.append(way_of(robot, name if robot.place.name else ONLY_ROBOT, robot.model))
             found = bodies_of(robot.model)
             self.notes += [f"{name}: {note}" for note in found.notes]
-            self.notes.append(f"{name}: bodies are {found.source}")
+            limits = "; links with one between them are left to the limits of the axes" if found.fitted else ""
+            self.notes.append(f"{name}: bodies are {found.source}{limits}")
             links: dict[int, int] = {}
             for body in found.bodies:
                 if body.link not in links:

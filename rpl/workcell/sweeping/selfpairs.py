@@ -1,7 +1,9 @@
 """Which things of one arm are never looked at together, since they touch however it stands: found by Pinocchio.
 
-Links that follow each other meet in their joint. Other pairs count as one piece where they touch at home, or in nearly
-all of some hundred postures drawn once and for all within the limits (the rules of MoveIt's setup assistant).
+Links that follow each other meet in their joint. Links with one other between them are kept apart by the limits of the
+axes; where the bodies are capsules of assumed thickness, these would only be wrong about them. Other pairs count as one
+piece where they touch at home, or in nearly all of some hundred postures drawn once and for all within the limits (the
+rules of MoveIt's setup assistant).
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
+from rpl.cell.armbodies import bodies_of
 from rpl.emulator.model import RobotModel
 from rpl.workcell.sweeping.geometrymodel import geometry_model
 from rpl.workcell.sweeping.tracks import Piece, Thing
@@ -24,8 +27,8 @@ ALWAYS = 0.95
 def touching_always(
     ways: Sequence[Way], things: Sequence[tuple[int, Thing, list[Piece]]]
 ) -> tuple[frozenset[tuple[int, int]], list[tuple[int, int, str]]]:
-    """Pairs of things of one robot, by number, the lower first, that are not looked at; and those of them that do not
-    follow each other, with the reason."""
+    """Pairs of things of one robot, by number, the lower first, that are not looked at; and those of them that the
+    postures decided, with the reason."""
     apart: set[tuple[int, int]] = set()
     said: list[tuple[int, int, str]] = []
     for number, way in enumerate(ways):
@@ -38,7 +41,7 @@ def touching_always(
                 continue
             pair = (min(first[0], second[0]), max(first[0], second[0]))
             arm = first[1].kind == "link" and second[1].kind == "link"
-            if arm and links.index(high) - links.index(low) == 1:
+            if arm and links.index(high) - links.index(low) <= (2 if bodies_of(way.model).fitted else 1):
                 apart.add(pair)
             else:
                 wanted.append((pair, first[2], second[2]))
