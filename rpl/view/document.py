@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from rpl.workcell.record import RobotRun
 
 # What the long arrays are rounded to: far below what one sees, and what the size of the page allows.
-TIME_S, JOINT, PLACE_MM, SPEED_MM_S, VERTEX_MM = 1e-4, 1e-4, 0.01, 1.0, 0.01
+TIME_S, JOINT, PLACE_MM, TURN, SPEED_MM_S, VERTEX_MM = 1e-4, 1e-4, 0.01, 1e-7, 1.0, 0.01
 # Texts of more characters are cut to what the run has come to, with so many lines around.
 MOST_TEXT, LINES_AROUND = 400_000, 40
 MOST_EVENTS = 4_000
@@ -70,6 +70,9 @@ def _robot(run: RobotRun, track: Track, screws: Screws | None, files: list[str])
     if run.model is None or screws is None:
         return found
     model = run.model
+    if track.bases is not None:
+        found["places"] = packed(track.bases[:, :3, 3], PLACE_MM)
+        found["turns"] = packed(track.bases[:, :3, :3].reshape(-1, 9), TURN)
     return found | {
         "title": model.title,
         "joints": [

@@ -114,9 +114,9 @@ class _Picture:
         frames = [np.eye(4)]
         for number, q in enumerate(joints):
             if q is not None:
-                flange = scene.flange_at(number, q)
+                flange = scene.flange_at(number, q, t)
                 tool = flange @ scene.tracks[number].tool_at(t)
-                frames += [scene.run.robots[number].place.base, tool]
+                frames += [scene.base_at(number, t), tool]
                 stick = np.stack([flange[:3, 3], tool[:3, 3]])[None]
                 self._lines(stick, np.array([(70.0, 80.0, 92.0)]), 4.0)
         for frame in frames:

@@ -36,17 +36,22 @@ class Scene:
     places: tuple[tuple[Placed, ...], ...]
     collisions: tuple[Collision, ...] = ()
 
-    def links_at(self, robot: int, joints: FloatArray) -> FloatArray:
+    def base_at(self, robot: int, t: float) -> FloatArray:
+        """The base (4, 4) of a robot in the cell, where its track has it at a time."""
+        carried = self.tracks[robot].base_at(t)
+        return self.run.robots[robot].place.base if carried is None else carried
+
+    def links_at(self, robot: int, joints: FloatArray, t: float) -> FloatArray:
         """The frames of a robot's links (links + 1, 4, 4) in the cell."""
         run = self.run.robots[robot]
         assert run.model is not None
-        return np.asarray(run.place.base @ link_poses(run.model, joints[None])[0])
+        return np.asarray(self.base_at(robot, t) @ link_poses(run.model, joints[None])[0])
 
-    def flange_at(self, robot: int, joints: FloatArray) -> FloatArray:
+    def flange_at(self, robot: int, joints: FloatArray, t: float) -> FloatArray:
         """The flange (4, 4) of a robot in the cell."""
         run = self.run.robots[robot]
         assert run.model is not None
-        return np.asarray(run.place.base @ run.model.forward(joints))
+        return np.asarray(self.base_at(robot, t) @ run.model.forward(joints))
 
     def joints_at(self, t: float) -> list[FloatArray | None]:
         """Joints of all robots at a time; None for those without a model."""
@@ -59,7 +64,7 @@ class Scene:
         """The pose (4, 4) in the cell of each of the bodies at a time, None of what is not there; `joints` in place of
         those of the run."""
         given = self.joints_at(t) if joints is None else joints
-        links = [None if q is None else self.links_at(number, q) for number, q in enumerate(given)]
+        links = [None if q is None else self.links_at(number, q, t) for number, q in enumerate(given)]
         parts = self._parts_at(t, given)
         found: list[FloatArray | None] = []
         for body in self.bodies:
@@ -88,7 +93,7 @@ class Scene:
             here = places[number - 1]
             pose, holder = pose_between(places[number - 1 : number + 1], max(t, here.t))
             if holder and (held := joints[holders[holder]]) is not None:
-                pose = self.flange_at(holders[holder], held) @ pose
+                pose = self.flange_at(holders[holder], held, t) @ pose
             found.append(pose)
         return found
 

@@ -176,18 +176,22 @@ class Screen:
             raise UsageError("there is no arm: name one with --robot")
         return found
 
+    def base(self) -> FloatArray:
+        """The base (4, 4) of the person's robot in the cell."""
+        return self.scene.base_at(self.robot, self.time_s)
+
     def tool(self) -> FloatArray:
         """The tool (4, 4) on the flange of the person's robot."""
         return self.scene.tracks[self.robot].tool_at(self.time_s)
 
     def tool_pose(self) -> FloatArray:
         """The tool centre point (4, 4) of the person's robot in the cell."""
-        return self.scene.flange_at(self.robot, self.here()) @ self.tool()
+        return self.scene.flange_at(self.robot, self.here(), self.time_s) @ self.tool()
 
     def drag(self, pose: FloatArray) -> list[str]:
         """Bring the tool centre point to a pose (4, 4) of the cell, if the arm can; and what is to be said of it."""
         model, near = self.model, self.here()
-        flange = invert_pose(self.run.place.base) @ pose @ invert_pose(self.tool())
+        flange = invert_pose(self.base()) @ pose @ invert_pose(self.tool())
         self.playing = False
         found = model.nearest(flange, near)
         if found is None:
@@ -273,7 +277,7 @@ class Screen:
         """Keep where the arm is under a name."""
         if not name.isidentifier() or not name.isascii():
             raise UsageError(f"{name!r} is no name for a point: a letter, then letters, digits and underscores")
-        pose = invert_pose(self.run.place.base) @ self.tool_pose()
+        pose = invert_pose(self.base()) @ self.tool_pose()
         self.points[name] = Taught(name, self.here().copy(), pose, self.tool())
         self.say(f"{name}: {in_words(pose)} in the robot's base")
         return self.points[name]

@@ -16,6 +16,7 @@ from rpl.emulator.rotations import FloatArray
 from rpl.report.motion import tool_rates
 from rpl.report.sampling import driven_moves, sample_run
 from rpl.source import Source
+from rpl.workcell.sweeping.ways import way_of
 
 if TYPE_CHECKING:
     from rpl.runtime.trace import RunResult
@@ -39,8 +40,8 @@ class LineAt:
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
     """The motion of one robot at k moments: times (k,) s, joints (k, n) in pendant units, tool centre point (k, 3) mm
-    in the cell and its speed (k,) mm/s. `tools`: from which time on which tool (4, 4) on the flange; `lines` by time.
-    """
+    in the cell and its speed (k,) mm/s as its own axes move it. `tools`: from which time on which tool (4, 4) on the
+    flange; `lines` by time; `bases` (k, 4, 4) of a robot that a track carries."""
 
     times: FloatArray
     joints: FloatArray
@@ -48,6 +49,15 @@ class Track:
     speeds: FloatArray
     tools: tuple[tuple[float, FloatArray], ...]
     lines: tuple[LineAt, ...]
+    bases: FloatArray | None = None
+
+    def base_at(self, t: float) -> FloatArray | None:
+        """The robot's base (4, 4) in the cell where a track carries it; it turns at samples only."""
+        if self.bases is None:
+            return None
+        pose = self.bases[max(int(np.searchsorted(self.times, t, side="right")) - 1, 0)].copy()
+        pose[:3, 3] = [np.interp(t, self.times, axis) for axis in self.bases[:, :3, 3].T]
+        return np.asarray(pose)
 
     def joints_at(self, t: float) -> FloatArray:
         """Joints (n,) at a time, held before the first and behind the last sample."""
@@ -75,15 +85,15 @@ def track_of(run: RobotRun, step_s: float = STEP_S) -> Track:
         return Track(np.zeros(0), np.zeros((0, 0)), nothing, np.zeros(0), (), lines)
     samples = sample_run(run.result, run.model, max(step_s, run.result.time_s / MOST_SAMPLES))
     speeds, _ = tool_rates(run.model, samples)
-    base = run.place.base
+    bases = way_of(run, "", run.model).bases(samples.times)
     tools: list[tuple[float, FloatArray]] = []
     for event in driven_moves(run.result):
         tool = event.legs[0].plan.geometry.tool
         if not tools or not np.array_equal(tools[-1][1], tool):
             tools.append((event.legs[0].start_s, tool))
-    return Track(
-        samples.times, samples.joints, samples.tool @ base[:3, :3].T + base[:3, 3], speeds, tuple(tools), lines
-    )
+    path = np.einsum("...ij,...j->...i", bases[..., :3, :3], samples.tool) + bases[..., :3, 3]
+    carried = bases if bases.ndim == 3 else None
+    return Track(samples.times, samples.joints, path, speeds, tuple(tools), lines, carried)
 
 
 def lines_of(result: RunResult) -> tuple[LineAt, ...]:

@@ -7,13 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rpl.cell.layout import Body
+from rpl.cell import parse_cell
+from rpl.cell.layout import Body, Layout, RobotPlace
 from rpl.cell.record import Placed
 from rpl.cell.shapes import Box
 from rpl.emulator.model import load_robot, robot_names
 from rpl.emulator.rotations import pose_matrix, rotation_vector_to_matrix
 from rpl.report.screws import screws_of
+from rpl.simulation import run_program
+from rpl.view.document import view_document
+from rpl.view.packing import unpacked
 from rpl.view.scene import Scene, scene_of
+from rpl.workcell.record import CellRun, RobotRun
+from tests.runtime.helpers import ABB, read
 from tests.view.cells import IN_HAND, LAYOUT, at, cell_run
 
 
@@ -48,7 +54,7 @@ def test_a_part_rests_goes_with_the_flange_falls_and_rests(scene: Scene) -> None
     assert pose_of(scene, "plug", 0.5)[:3, 3] == pytest.approx([500.0, 0.0, 30.0])
     joints = scene.joints_at(1.5)[0]
     assert joints is not None
-    assert pose_of(scene, "plug", 1.5) == pytest.approx(scene.flange_at(0, joints) @ IN_HAND)
+    assert pose_of(scene, "plug", 1.5) == pytest.approx(scene.flange_at(0, joints, 1.5) @ IN_HAND)
     assert pose_of(scene, "plug", 2.25)[:3, 3] == pytest.approx([400.0, 0.0, 230.0])
     assert pose_of(scene, "plug", 99.0)[:3, 3] == pytest.approx([400.0, 0.0, 30.0])
 
@@ -77,6 +83,39 @@ def test_bodies_beside_the_grip_are_jaws_that_move() -> None:
         assert np.linalg.norm(left - right) == pytest.approx(apart)
 
 
+RAIL = """[[mechanism]]
+name = "rail"
+kind = "track"
+root = [0, -500, 0, 0, 0, 0]
+axes = [{ number = 1, direction = "y", speed = 1000 }]
+"""
+RIDES = """MODULE prog
+  CONST jointtarget far:=[[0,0,0,0,30,0],[900,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveAbsJ far,v1000,fine,tool0;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_robot_on_a_track_goes_with_it() -> None:
+    cell = parse_cell(RAIL, "rail.toml")
+    model = load_robot(ABB).among(cell.mechanisms, "rail.toml")
+    program = read("rapid", RIDES)
+    result = run_program(program, model, cell)
+    place = RobotPlace(arm=ABB, base=at(100.0, 0.0, 0.0))
+    scene = scene_of(CellRun(Layout((place,)), (RobotRun(place, model, program, result),), time_s=result.time_s))
+    track = scene.tracks[0]
+    assert track.bases is not None
+    assert scene.base_at(0, 0.0)[:3, 3] == pytest.approx([100.0, 0.0, 0.0])
+    assert scene.base_at(0, result.time_s)[:3, 3] == pytest.approx([100.0, 900.0, 0.0], abs=1e-6)
+    joints = track.joints_at(result.time_s)
+    assert scene.flange_at(0, joints, result.time_s)[:3, 3] == pytest.approx(track.tool[-1], abs=1e-6)
+    document = view_document(scene, "rail")["robots"]
+    assert isinstance(document, list)
+    assert unpacked(document[0]["places"])[-1] == pytest.approx([100.0, 900.0, 0.0], abs=0.01)
+
+
 def test_jaws_stand_as_far_apart_as_the_gripper_is_open(scene: Scene) -> None:
     for t, width in ((0.5, 120.0), (1.5, 30.0), (3.0, 80.0)):
         left, right = (pose_of(scene, "jaws", t, side)[:3, 3] for side in (1, 2))
@@ -90,7 +129,7 @@ def test_the_tool_goes_where_the_run_says(scene: Scene) -> None:
     last = [event for event in run.result.trace if event.kind == "move"][-1]
     assert track.tool[-1] - run.place.base[:3, 3] == pytest.approx(last.data["xyz_mm"], abs=1e-3)
     joints = track.joints_at(track.times[-1])
-    assert (scene.flange_at(0, joints) @ track.tool_at(track.times[-1]))[:3, 3] == pytest.approx(
+    assert (scene.flange_at(0, joints, 1.5) @ track.tool_at(track.times[-1]))[:3, 3] == pytest.approx(
         track.tool[-1], abs=1e-6
     )
     assert track.speeds[track.times > 1.5].max() == pytest.approx(200.0, rel=0.05)  # $VEL.CP

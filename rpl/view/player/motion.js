@@ -19,6 +19,8 @@ const MOMENT = 1e-6, since = (row) => row[0];
 class Arm {
   constructor(robot) {
     this.base = robot.base;
+    this.places = robot.places && unpacked(robot.places);
+    this.turns = robot.turns && unpacked(robot.turns);
     this.screws = robot.screws;
     this.count = robot.joints.length;
     this.t = unpacked(robot.t);
@@ -36,7 +38,15 @@ class Arm {
   }
   speedAt(time) { return this.speed[Math.max(lastAt(this.t, time), 0)]; }
   // How far each link is from its place with all variables zero, the base first; in the cell.
-  links(joints) { return armLinks(this.base, this.screws, joints); }
+  links(joints, time) { return armLinks(this.baseAt(time), this.screws, joints); }
+  // Where a track has the base; it turns at samples only.
+  baseAt(time) {
+    if (!this.places) return this.base;
+    const { t, places, turns } = this, n = Math.max(lastAt(t, time), 0), next = Math.min(n + 1, t.length - 1), gap = t[next] - t[n];
+    const share = gap > 0 ? Math.min(Math.max((time - t[n]) / gap, 0), 1) : 0, found = [];
+    for (let i = 0; i < 3; i++) found.push(turns[9 * n + 3 * i], turns[9 * n + 3 * i + 1], turns[9 * n + 3 * i + 2], places[3 * n + i] + share * (places[3 * next + i] - places[3 * n + i]));
+    return found;
+  }
   tool(time) {
     if (!this.tools.length) return Pose.one();
     return this.tools[Math.max(lastAt(this.tools, time + MOMENT, since), 0)][1];
@@ -51,7 +61,7 @@ class Motion {
   at(time) {
     const { run } = this;
     const joints = this.arms.map((arm) => arm && arm.joints(time));
-    const links = this.arms.map((arm, n) => arm && arm.links(joints[n]));
+    const links = this.arms.map((arm, n) => arm && arm.links(joints[n], time));
     const flanges = this.arms.map((arm, n) => arm && Pose.times(links[n][arm.count], arm.screws.flange));
     const tools = this.arms.map((arm, n) => arm && Pose.times(flanges[n], arm.tool(time)));
     const parts = run.parts.map((places) => this.part(places, time, flanges));

@@ -6,6 +6,7 @@
   const state = { time: 0, playing: false, speed: 1, line: -1, follow: -1, dirty: true, frames: 0 };
   const shown = { path: true, frames: true, names: false, edges: true };
   get("facts").textContent = [run.time_s.toFixed(2) + " s", ...run.robots.filter((robot) => robot.title).map((robot) => (run.robots.length > 1 ? robot.name + ": " : "") + robot.title)].join(" · ");
+  if (!motion.arms.some(Boolean)) get("legend").style.display = "none";
   if (!drawing.gl) { made("p", "fault", get("view"), "This browser has no WebGL 2: the cell cannot be drawn. The panels work."); }
 
   // ---- what is drawn
@@ -103,7 +104,7 @@
     run.robots.forEach((robot, n) => {
       if (!motion.arms[n]) return;
       const several = run.robots.length > 1 ? robot.name + " " : "";
-      if (robot.base.some((value, k) => value !== Pose.one()[k])) found.push({ name: several + "base", pose: robot.base });
+      if (robot.base.some((value, k) => value !== Pose.one()[k])) found.push({ name: several + "base", pose: motion.arms[n].baseAt(places.time) });
       found.push({ name: several + "tool", pose: places.tools[n] });
     });
     return found;
