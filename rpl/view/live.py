@@ -30,6 +30,7 @@ MISSING = "the live view needs the package viser: pip install 'robot-rpl[view]' 
 PERIOD_S = 0.04
 SPEEDS_OF_PLAY = ("0.1", "0.25", "0.5", "1", "2", "5", "10")
 _M = 0.001
+MOST_TOUCHES = 200
 
 
 class Live:
@@ -107,11 +108,30 @@ class Live:
                 node.on_click(self._clicked(number))
             self.nodes.append(node)
         self._paths()
+        self._marks(extent)
         self.gizmo = None
         if any(run.model is not None for run in scene.run.robots):
             self.gizmo = api.add_transform_controls("/tool", scale=0.12 * extent, depth_test=False)
             self.gizmo.on_update(self._dragged)
         self._look("isometric", self.server.initial_camera)
+
+    def _marks(self, extent: float) -> None:
+        """The frames of the cell and of its robots, and where something touches, seen around that time only."""
+        api, scene = self.server.scene, self.screen.scene
+        api.add_frame("/cell", axes_length=0.07 * extent, axes_radius=0.001 * extent)
+        for number, run in enumerate(scene.run.robots):
+            axes = {"axes_length": 0.05 * extent, "axes_radius": 0.001 * extent}
+            api.add_frame(f"/bases/{number}", **axes, **_placed(run.place.base))
+        self.touches = [
+            api.add_icosphere(
+                f"/touches/{number}",
+                radius=0.015 * extent,
+                color=(217, 30, 30),
+                position=tuple(float(value) * _M for value in one.at_mm),
+                visible=False,
+            )
+            for number, one in enumerate(scene.collisions[:MOST_TOUCHES])
+        ]
 
     def _paths(self) -> None:
         """The paths of the tools, coloured by speed."""
@@ -236,6 +256,10 @@ class Live:
                     node.visible = pose is not None
                 if pose is not None:
                     _place(node, pose)
+            now = {id(one) for one in screen.scene.collisions_at(screen.time_s)}
+            for mark, one in zip(self.touches, screen.scene.collisions, strict=False):
+                if mark.visible != (id(one) in now):
+                    mark.visible = id(one) in now
             if self.gizmo is not None and not self.dragging and screen.run.model is not None:
                 _place(self.gizmo, screen.tool_pose())
         self.panels.show()

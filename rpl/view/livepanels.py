@@ -107,7 +107,8 @@ def arm_html(screen: Screen, told: str) -> str:
         rows.append(f"J{axis + 1}  {value:9.3f} {unit}   ({low:.4g} to {high:.4g})")
     x, y, z = screen.tool_pose()[:3, 3]
     rows.append(f"tool {x:.2f}, {y:.2f}, {z:.2f} mm")
-    words = [word for word in (told, *screen.margins()) if word]
+    touches = [f"{one.a} touches {one.b} at {one.t:.2f} s" for one in screen.scene.collisions_at(screen.time_s)]
+    words = [word for word in (told, *touches, *screen.margins()) if word]
     warning = f'<div style="padding: 0 12px; color: #c0392b">{"<br>".join(map(escape, dict.fromkeys(words)))}</div>'
     return f'<div style="{_TEXT}">{escape(chr(10).join(rows))}</div>{warning if words else ""}'
 

@@ -19,6 +19,7 @@ from rpl.cli.main import run as rpl
 from rpl.emulator.rotations import matrix_to_quaternion
 from rpl.view.scene import scene_of
 from rpl.view.screen import Loaded, Screen
+from rpl.workcell.collisions import Collision
 from tests.runtime.helpers import KUKA
 from tests.view.cells import PROGRAM, at, cell_run
 
@@ -37,7 +38,8 @@ def free_port() -> int:
 def live() -> Iterator[Any]:
     from rpl.view.live import Live
 
-    shown = Live(Screen(Loaded(scene_of(cell_run()), ())), "127.0.0.1", free_port(), "prog")
+    hit = Collision(2.0, 2.1, "table", "jaws", (400.0, 0.0, 20.0), 3.25, 2.05)
+    shown = Live(Screen(Loaded(scene_of(cell_run(), [hit]), ())), "127.0.0.1", free_port(), "prog")
     yield shown
     shown.stop()
 
@@ -105,6 +107,14 @@ def test_a_click_on_a_surface_makes_a_frame(live: Any) -> None:
     event.ray_origin = (5.0, 0.1, 1.0)
     live._clicked(number)(event)
     assert "passes by" in live.panels.said.content
+
+
+def test_what_touches_is_marked_around_its_time(live: Any) -> None:
+    for t, seen in ((1.0, False), (2.0, True), (2.3, True), (2.6, False)):
+        with live.working():
+            live.screen.go(t)
+        assert [mark.visible for mark in live.touches] == [seen]
+        assert ("table touches jaws" in live.panels.arm.content) == seen
 
 
 def test_texts_of_programs_are_escaped(live: Any) -> None:
