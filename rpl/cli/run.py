@@ -117,6 +117,8 @@ def command(
     reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     surroundings, diagnostics = _assuming(load_cell(cell), assume_data), collector()
     if surroundings is not None and surroundings.layout and explore is None and new_cell is None:
+        if plot is not None and len(surroundings.layout.robots) > 1:
+            raise UsageError("--plot draws one robot: `rpl view` shows them all")
         asked = CellAsked(paths, dialect, robots, entry, limits, reports.controller, despite_errors, bodies, as_json)
         return run_among_bodies(surroundings, asked, lambda run, loaded: _written(run, loaded, trace, reports))
     _about_one_robot(paths, bodies)
@@ -176,8 +178,6 @@ def _written(run: CellRun, loaded: Sequence[Loaded], trace: Path | None, reports
         lines = [json.dumps(plain(row), ensure_ascii=False) for row in rows]
         write_file(trace, "".join(line + "\n" for line in lines).encode("utf-8"))
     if reports.plot is not None:
-        if len(run.robots) > 1:
-            raise UsageError("--plot draws one robot: `rpl view` shows them all")
         reports.write(run.robots[0].result, loaded[0].read, run.robots[0].model)
 
 

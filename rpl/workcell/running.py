@@ -122,9 +122,13 @@ def _until_the_end(machines: Mapping[str, Simulation]) -> None:
             machine.outside = len(alive) > 1
         able = [machine for machine in alive if not machine.waits_outside]
         if not able:
+            ended = [machine for machine in machines.values() if machine.status == "limit"]
             for machine in alive:
                 machine.outside = False
-                machine.advance()  # it finds that nothing is to come
+                if ended:  # they would go on if that one had
+                    machine.end_at_limit("max-time", f"waits for a robot that was ended after {ended[0].now:g} s")
+                else:
+                    machine.advance()  # it finds that nothing is to come
             return
         min(able, key=lambda machine: machine.next_s).advance()
         alive = [machine for machine in alive if not machine.status]

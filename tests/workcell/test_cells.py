@@ -132,6 +132,12 @@ def test_a_deadlock_names_who_waits_for_whom():
     assert "(driven by left.$OUT[2])" in made.fault
 
 
+def test_who_waits_for_a_robot_that_a_limit_ended_is_in_no_deadlock():
+    made = run(cell_of("handover/cell.toml"), replace(DEFAULTS, time_s=5.0))
+    assert made.status == "limit"
+    assert [one.result.status for one in made.robots] == ["limit", "limit"]
+
+
 def test_the_same_seed_gives_the_same_bytes_and_another_one_another_pile():
     cell = cell_of("bin_drop/cell.toml")
     few = replace(cell, layout=replace(cell.layout, parts=cell.layout.parts[:12]))

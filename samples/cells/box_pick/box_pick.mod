@@ -1,4 +1,4 @@
-MODULE BoxPick
+MODULE box_pick
   ! Takes a box from the left half of the table to the right one. A gripper that holds nothing tries again, twice.
   PERS tooldata Gripper:=[TRUE,[[0,0,150],[1,0,0,0]],[1,[0,0,60],[1,0,0,0],0,0,0]];
   CONST jointtarget Home:=[[0,0,0,0,45,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
