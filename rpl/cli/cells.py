@@ -20,13 +20,14 @@ from rpl.cli.output import (
     say,
     waiting,
 )
+from rpl.cli.reports import assumptions, show_reports, warnings_of
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 from rpl.showing import counted, printable
 
 if TYPE_CHECKING:
     from rpl.cell import Cell
-    from rpl.motionmodel import MotionModel
+    from rpl.cli.reports import Reports
     from rpl.runtime.limits import Limits
     from rpl.runtime.trace import Event
     from rpl.runtime.values import Value
@@ -84,7 +85,7 @@ class CellAsked:
     robots: Sequence[str]
     entry: str | None
     limits: Limits
-    controller: MotionModel | None
+    reports: Reports | None
     despite_errors: bool
     bodies: BodiesAsked
     as_json: bool
@@ -94,6 +95,7 @@ def run_among_bodies(cell: Cell, asked: CellAsked, write: Callable[[CellRun, Seq
     """Run it, say what came of it, and let the files be written that are asked for; the exit status."""
     from rpl.workcell.outcome import outcome_of
 
+    _about_all(cell, asked.reports)
     loaded = loaded_robots(cell, asked)
     if loaded is None:
         return 1
@@ -104,14 +106,46 @@ def run_among_bodies(cell: Cell, asked: CellAsked, write: Callable[[CellRun, Seq
         found = _collisions(run) if asked.bodies.collisions else None
         if found is not None and asked.bodies.stops and found.collisions:
             run = _stopped(cell, asked, loaded, found)
-    outcome = outcome_of(run)
-    if asked.as_json:
-        print_json(document(run, outcome, found))
-    else:
-        for line in shown(run, outcome, found):
-            say(line)
+    _told(run, outcome_of(run), found, asked)
     write(run, loaded)
     return 0 if run.status in _FINISHED and (found is None or not found.collisions) else 1
+
+
+def first_arm(cell: Cell | None) -> str | None:
+    """The arm that a cell names for its first robot."""
+    places = cell.layout.robots if cell is not None else ()
+    return places[0].arm or None if places else None
+
+
+def _about_all(cell: Cell, reports: Reports | None) -> None:
+    """Raises UsageError for reports that are about one robot, in a cell of several."""
+    if reports is None or len(cell.layout.robots) < 2:
+        return
+    asked = (("--plot", reports.plot is not None), ("--times", reports.timed), ("--dynamics", reports.dynamics))
+    if name := next((name for name, given in asked if given), ""):
+        raise UsageError(f"{name} is about one robot, and {cell.path} has several: `rpl view` shows them all")
+
+
+def _told(run: CellRun, outcome: Outcome, found: Collisions | None, asked: CellAsked) -> None:
+    """What came of it, for machines or for people; with the reports about one robot that are asked for."""
+    first = run.robots[0] if run.robots else None
+    layers, times = None, None
+    if first is not None and asked.reports is not None:
+        layers = asked.reports.layers(first.result, first.model)
+        times = asked.reports.times(first.result, first.model)
+    if asked.as_json:
+        more = {"dynamics": layers, "times": times}
+        named = {name: made.as_json() for name, made in more.items() if made is not None}
+        print_json(document(run, outcome, found) | named)
+        return
+    for one in run.robots:
+        for line in assumptions(one.result.assumed or ()):
+            say(line)
+    for line in shown(run, outcome, found):
+        say(line)
+    for one in run.robots:
+        print_diagnostics(warnings_of(one.result))
+    show_reports(layers, times)
 
 
 def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
@@ -121,6 +155,7 @@ def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
     from rpl.workcell.running import Driven
 
     diagnostics = collector()
+    controller = asked.reports.controller if asked.reports is not None else None
     robots = cell.layout.robots
     if asked.paths and len(robots) > 1:
         raise UsageError(f"{cell.path} names the programs of its {len(robots)} robots: leave the paths out")
@@ -134,9 +169,9 @@ def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
         model = model.among(cell.mechanisms, cell.path)
         others = tuple(one for each in asked.robots[1:] if (one := robot_named(each)) is not None)
         program = settled(read, cell, diagnostics)
-        found: tuple[Loaded, ...] = (
-            Loaded(Driven(place, program, model, asked.entry, asked.controller, others), read),
-        )
+        found: tuple[Loaded, ...] = (Loaded(Driven(place, program, model, asked.entry, controller, others), read),)
+    elif asked.robots:
+        raise UsageError(f"--robot goes with the PATH of a program: without one the arms are those of {cell.path}")
     elif robots or not cell.layout.grippers:
         found = robots_of(cell, diagnostics)  # without any the parts fall, and that is all
     else:
@@ -199,6 +234,7 @@ def document(run: CellRun, outcome: Outcome, found: Collisions | None) -> dict[s
         ([round(t, 6), f"{name}{signal}", value] for name, result in results for t, signal, value in result.outputs),
         key=lambda one: one[0],
     )
+    assumed = [one.as_json() for _, result in results for one in result.assumed or ()]
     faults = [result.fault for _, result in results if result.fault is not None and result.status == run.status]
     return {
         "status": run.status,
@@ -208,6 +244,7 @@ def document(run: CellRun, outcome: Outcome, found: Collisions | None) -> dict[s
         "messages": [f"{name}{text}" for name, result in results for text in result.messages],
         "outputs": outputs,
         "fault": faults[0].as_json() if faults else None,
+        **({"assumed": assumed} if any(result.assumed is not None for _, result in results) else {}),
         **outcome.as_json(),
         **(found.as_json() if found is not None else {}),
         "notes": [*outcome.notes, *(found.notes if found is not None else ())],

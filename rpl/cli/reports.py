@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -11,7 +11,9 @@ import click
 
 from rpl.cli.output import numbers, robot_named, say, write_file
 from rpl.controllerfiles import controller_named
+from rpl.diagnostics import Code, Diagnostic, Severity
 from rpl.errors import UsageError
+from rpl.showing import counted
 
 if TYPE_CHECKING:
     from rpl.emulator.inertias import Body
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from rpl.project import ReadProgram
     from rpl.report.dynamics import Moment, RunDynamics
     from rpl.report.times import RunTimes
+    from rpl.runtime.assumed import Assumed
     from rpl.simulation import RunResult
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
@@ -217,3 +220,21 @@ def _where(moment: Moment) -> str:
     origin = moment.origin
     place = f"{PurePath(origin.file).name}:{origin.line}" if origin.source is not None else "at rest"
     return f"{place} at {moment.time_s:.3f} s"
+
+
+def warnings_of(result: RunResult) -> Iterator[Diagnostic]:
+    """What the controller would have logged on the way, each with its place."""
+    for event in result.trace:
+        if event.kind == "warning":
+            kind = Code(str(event.data["code"]), Severity.WARNING, "{text}")
+            said = ("text", f"{event.data['text']} (task {event.task})")
+            yield Diagnostic(kind, event.origin, (said,), Severity.WARNING)
+
+
+def assumptions(assumed: Sequence[Assumed]) -> Iterator[str]:
+    """What a result rests on, before the result itself."""
+    from rpl.inventory.contents import place_of
+
+    if assumed:
+        yield f"rests on {counted(len(assumed), 'assumed value')} of data to which nothing in the project gives one:"
+        yield from (f"  {place_of(one.origin)}: {one.name} = {one.shown}" for one in assumed)

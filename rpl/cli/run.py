@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from rpl.cli.cells import BodiesAsked, CellAsked, bodies_options, run_among_bodies
+from rpl.cli.cells import BodiesAsked, CellAsked, bodies_options, first_arm, run_among_bodies
 from rpl.cli.exploring import explore_backup, exploring_options, limit_of_a_run
 from rpl.cli.files import force_option, refuse_others, write_files
 from rpl.cli.limits import limit_options, limits_of
@@ -30,12 +30,12 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.cli.reports import Reports, report_options, reports_of, show_reports
-from rpl.diagnostics import Code, Diagnostic, Diagnostics, Severity
+from rpl.cli.reports import Reports, assumptions, report_options, reports_of, show_reports, warnings_of
+from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import UsageError
 from rpl.passes.legalise.facts.motion.pulsecounts import report_assumed, report_stations
 from rpl.runtime.trace import RunInterrupted
-from rpl.showing import counted, printable
+from rpl.showing import printable
 
 INTERRUPTED = 130
 
@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from rpl.project import ReadProgram
     from rpl.report.dynamics import RunDynamics
     from rpl.report.times import RunTimes
-    from rpl.runtime.assumed import Assumed
     from rpl.simulation import RunResult
     from rpl.workcell.loading import Loaded
     from rpl.workcell.record import CellRun
@@ -114,12 +113,10 @@ def command(
     robot, further = robots[0] if robots else None, robots[1:]
     _can_be_written(trace, plot)
     limits = limits_of(max_time if explore is None else limit_of_a_run(max_time), max_steps, max_events)
-    reports = reports_of(plot, dynamics, payload, robot, timed, controller)
     surroundings, diagnostics = _assuming(load_cell(cell), assume_data), collector()
+    reports = reports_of(plot, dynamics, payload, robot or first_arm(surroundings), timed, controller)
     if surroundings is not None and surroundings.layout and explore is None and new_cell is None:
-        if plot is not None and len(surroundings.layout.robots) > 1:
-            raise UsageError("--plot draws one robot: `rpl view` shows them all")
-        asked = CellAsked(paths, dialect, robots, entry, limits, reports.controller, despite_errors, bodies, as_json)
+        asked = CellAsked(paths, dialect, robots, entry, limits, reports, despite_errors, bodies, as_json)
         return run_among_bodies(surroundings, asked, lambda run, loaded: _written(run, loaded, trace, reports))
     _about_one_robot(paths, bodies)
     read = read_paths(paths, dialect, diagnostics)
@@ -302,24 +299,6 @@ def _not_started(diagnostics: Diagnostics, as_json: bool) -> int:
     return 1
 
 
-def _warnings(result: RunResult) -> Iterator[Diagnostic]:
-    """What the controller would have logged on the way, each with its place."""
-    for event in result.trace:
-        if event.kind == "warning":
-            kind = Code(str(event.data["code"]), Severity.WARNING, "{text}")
-            said = ("text", f"{event.data['text']} (task {event.task})")
-            yield Diagnostic(kind, event.origin, (said,), Severity.WARNING)
-
-
-def assumptions(assumed: Sequence[Assumed]) -> Iterator[str]:
-    """What a result rests on, before the result itself."""
-    from rpl.inventory.contents import place_of
-
-    if assumed:
-        yield f"rests on {counted(len(assumed), 'assumed value')} of data to which nothing in the project gives one:"
-        yield from (f"  {place_of(one.origin)}: {one.name} = {one.shown}" for one in assumed)
-
-
 def show(result: RunResult) -> None:
     """The run for people."""
     document = result.as_json()
@@ -332,7 +311,7 @@ def show(result: RunResult) -> None:
         say(printable(f"{t:9.3f} s  {name} = {said}"))
     for message in messages:
         say(f"message    {printable(str(message))}")
-    print_diagnostics(_warnings(result))
+    print_diagnostics(warnings_of(result))
     say(f"{result.status} after {result.time_s:.3f} s, {result.moves} moves, {result.statements} statements")
     if isinstance(fault, dict):
         place = f"{fault['file']}:{fault['line']}: " if fault["file"] else ""
