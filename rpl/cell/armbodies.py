@@ -91,13 +91,13 @@ def bodies_of(model: RobotModel) -> ArmBodies:
         read, lacking = urdf_bodies(model.urdf)
         given = tuple(LinkBody(*one) for one in read)
         given = (*given, *(body for body in fitted if body.link in lacking))
-        source = "meshes and forms of the URDF" if given else source
+        source = "the meshes and forms of its URDF" if given else source
     if model.bodies:
         own = tuple(
             capsule_between(one.link, np.array(one.start), np.array(one.end), one.radius) for one in model.bodies
         )
         given = (*own, *_others(given, own))
-        source = "the robot file"
+        source = "those of its robot file"
     found = sorted((*given, *_others(fitted, given)), key=lambda body: body.link)
     return ArmBodies(tuple(found), source, tuple(lacking.values()), not given)
 

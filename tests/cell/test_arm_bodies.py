@@ -86,7 +86,7 @@ def test_a_robot_file_gives_bodies_of_its_own(tmp_path: Path) -> None:
     second = [body for body in arm_bodies(model) if body.link == 2]
     assert [body.shape for body in second] == [Capsule(110.0, 275.0), Sphere(160.0)]
     assert np.allclose(bounds_at(second[0].shape, second[0].at), [[270, -55, 395], [655, 55, 505]])
-    assert bodies_of(model).source == "the robot file"
+    assert bodies_of(model).source == "those of its robot file"
     assert {body.link for body in arm_bodies(model)} == {0, 1, 2, 3, 4}
 
 

@@ -1,7 +1,7 @@
 """An arm with its bodies, its tool and its load as a geometry model of Pinocchio.
 
-For what Pinocchio and coal do by themselves: distances and collisions of all pairs at single postures, with
-coal's broad phase over all of them. The sweep over a whole run has its own way through the same solids (`sweep`).
+For what Pinocchio and coal do by themselves: distances and collisions of pairs at single postures. It tells which pairs
+of an arm always touch; the sweep over a whole run has its own way through the same solids (`sweep`).
 """
 
 from __future__ import annotations
