@@ -16,7 +16,7 @@ $(VENV)/.demo-ready: pyproject.toml setup.py
 
 $(VENV)/.test-ready: pyproject.toml setup.py
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[cell,step,plot,ftp,ssh,rws,parquet,dask,test,dev]' 'setuptools>=75'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[cell,step,view,plot,ftp,ssh,rws,parquet,dask,test,dev]' 'setuptools>=75'
 	touch $@
 
 demo: $(VENV)/.demo-ready
