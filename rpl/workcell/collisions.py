@@ -18,7 +18,16 @@ from rpl.errors import UsageError
 from rpl.source import NOWHERE, Origin
 from rpl.workcell.record import CellRun
 from rpl.workcell.sweeping.scene import Meeting, Scene, scene_of
-from rpl.workcell.sweeping.sweep import TOUCH_MM, Contact, Least, Meter, PairSweep, sharpened
+from rpl.workcell.sweeping.sweep import (
+    COARSE_MM,
+    FINE_MM,
+    TOUCH_MM,
+    Contact,
+    Least,
+    Meter,
+    PairSweep,
+    sharpened,
+)
 from rpl.workcell.sweeping.tracks import STILL, Block, Piece, Track, block_of, track_of
 from rpl.workcell.sweeping.ways import Way, knots
 
@@ -216,7 +225,9 @@ class _Search:
             seen_from = pieces[0].link if pieces[0].way == pieces[1].way else STILL
             first, second = (track(piece, seen_from) for piece in pieces)
             if first is not None and second is not None and _near(first, second, pair):
-                pair.contacts += PairSweep(self.meter, block, (first, second), pair.level_mm, pair.least).contacts()
+                fine_mm = COARSE_MM if pair.meeting.grips else FINE_MM
+                sweep = PairSweep(self.meter, block, (first, second), pair.level_mm, pair.least, fine_mm)
+                pair.contacts += sweep.contacts()
 
     def _track(self, piece: Piece, block: Block, seen_from: int) -> Track | None:
         """A piece in a block; None where it is not there then."""

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 # A contact is deeper than this, mm.
 TOUCH_MM = 0.01
+# Between two moments of the block a contact may be missed that is less deep than half of this, mm; where jaws slide
+# along what they grip, which may touch them, it is not looked for as closely.
+FINE_MM, COARSE_MM = TOUCH_MM / 2.0, 1.0
 # Moments of beginning and end of a contact are known to this.
 SHARP_S = 1e-5
 _GOLDEN = 0.6180339887498949
@@ -99,14 +102,20 @@ class Meter:
 
 class PairSweep:
     """Goes along one pair. `level_mm`: distances below it are contact (below zero for what rests on something);
-    `least`: the least distance of both things, None where it is not asked for."""
+    `least`: the least distance of both things, None where it is not asked for; `fine_mm`: see FINE_MM."""
 
     def __init__(
-        self, meter: Meter, block: Block, tracks: tuple[Track, Track], level_mm: float, least: Least | None
+        self,
+        meter: Meter,
+        block: Block,
+        tracks: tuple[Track, Track],
+        level_mm: float,
+        least: Least | None,
+        fine_mm: float = FINE_MM,
     ) -> None:
         self.meter, self.times = meter, block.times
         self.a, self.b = tracks
-        self.level, self.least = level_mm, least
+        self.level, self.least, self.fine_mm = level_mm, least, fine_mm
         self.first = max(self.a.first, self.b.first)
         self.last = min(self.a.last, self.b.last)
         rows = [slice(track.row(self.first), track.row(self.last) + 1) for track in tracks]
@@ -183,11 +192,7 @@ class PairSweep:
 
     def _dig(self, start: tuple[float, float], end: tuple[float, float], bound: float) -> float | None:
         """A moment of contact between two moments without, where both together go at most `bound`."""
-        if (
-            start[1] + end[1] - bound >= 2.0 * self.level
-            or bound < TOUCH_MM / 2.0
-            or end[0] - start[0] < SHARP_S / 10.0
-        ):
+        if start[1] + end[1] - bound >= 2.0 * self.level or bound < self.fine_mm or end[0] - start[0] < SHARP_S / 10.0:
             return None
         middle = (start[0] + end[0]) / 2.0
         there = self._asked(middle)
