@@ -93,10 +93,20 @@ class Fixture:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class OwnGrasp:
+    """Where a part is to be taken: the grip point (4, 4) in its frame, and from how far the gripper comes and goes
+    (None: as far as by default)."""
+
+    grip: FloatArray
+    approach_mm: float | None = None
+    depart_mm: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Part:
     """What can be moved. `at`: where its frame is at the start; `restitution` of its material, `mass_kg` None: not
     weighed. `again_s`: where a feeder brings it, how long after the one before it was taken; `comes_s`: when it comes
-    where that is known."""
+    where that is known; `grasps`: in place of the default ones."""
 
     name: str
     shape: Shape
@@ -105,6 +115,7 @@ class Part:
     mass_kg: float | None = None
     again_s: float | None = None
     comes_s: float = 0.0
+    grasps: tuple[OwnGrasp, ...] = ()
     kind: str = ""  # the name that it shares with its copies
     key: str = ""
 

@@ -6,7 +6,7 @@
     [[fixture]]   name = "table"  FORM  [at]  [restitution]      or bodies = [{ FORM, at = [...] }, ...]
     [[bin]]       name = "bin"  inside = [300, 200, 120]  [wall]  [at]  [restitution]
     [[part]]      name = "cube"  FORM  [at]  [mass]  [restitution]  [copies = 12] with one of
-                  [step = [0, 0, 40]]  [every = 1.0]  [again = 0.5]
+                  [step = [0, 0, 40]]  [every = 1.0]  [again = 0.5];  [grasps = [{ grip = [...] }]]
     [[sensor]]    name = "seat"  signal = "di4"  FORM  [at]  [robot]  [parts = ["cube"]]
     [[wire]]      from = "left.do5"  to = "right.di2"
     [[removal]]   when = "do6"  fixture = "pallet"  [after = 1.0]  [robot]
@@ -30,6 +30,7 @@ from rpl.cell.layout import (
     Fixture,
     Gripper,
     Layout,
+    OwnGrasp,
     Part,
     Removal,
     RobotPlace,
@@ -46,6 +47,7 @@ from rpl.tomlfile import FARTHEST
 TABLES = ("robot", "gripper", "fixture", "bin", "part", "sensor", "wire", "removal", "bodies")
 _FORMS = ("box", "cylinder", "sphere", "capsule", "extrusion", "mesh")
 _FORM_KEYS = (*_FORMS, "scale")
+_PART_KEYS = ("at", "mass", "restitution", "copies", "step", "again", "every", "grasps")
 _LARGEST_MM, _SMALLEST_MM = 50_000.0, 0.05  # of a body: beyond these a unit was mistaken
 _MOST_COPIES = 10_000
 
@@ -268,7 +270,12 @@ class LayoutReader(RowReader):
 
     def part(self, key: str, row: dict[str, Value]) -> Iterator[Part]:
         """The part and its copies: `cube`, `cube#2`, ..."""
-        self.known(key, row, ("name",), (*_FORM_KEYS, "at", "mass", "restitution", "copies", "step", "again", "every"))
+        self.known(
+            key,
+            row,
+            ("name",),
+            (*_FORM_KEYS, "at", "mass", "restitution", "copies", "step", "again", "every", "grasps"),
+        )
         shape, at, name = self.form(key, row), self.pose(key, row), self.name(key, row)
         copies = row.get("copies", 1)
         if type(copies) is not int or not 1 <= copies <= _MOST_COPIES:
@@ -282,12 +289,27 @@ class LayoutReader(RowReader):
         if copies > 1 and not ways:
             raise self.wrong(f"{key}.copies", "stand in each other: give step = [x, y, z], every = s or again = s")
         mass = self.number(key, row, "mass", 0.0) if "mass" in row else None
+        grasps = tuple(self.grasps(key, row))
         for number in range(copies):
             place = at.copy()
             place[:3, 3] += number * step
             called = name if number == 0 else f"{name}#{number + 1}"
             comes = number * every if every is not None else 0.0
-            yield Part(called, shape, place, self.restitution(key, row), mass, again, comes, name, key)
+            yield Part(called, shape, place, self.restitution(key, row), mass, again, comes, grasps, name, key)
+
+    def grasps(self, key: str, row: dict[str, Value]) -> Iterator[OwnGrasp]:
+        """`grasps = [{ grip = [x, y, z, a, b, c], approach = 80, depart = 80 }]`."""
+        given = row.get("grasps", [])
+        if not isinstance(given, list) or not all(isinstance(one, dict) for one in given):
+            raise self.wrong(f"{key}.grasps", "must be a list of { grip = [x, y, z, a, b, c] }")
+        for number, one in enumerate(given, 1):
+            where = f"{key}.grasps[{number}]"
+            self.known(where, one, ("grip",), ("approach", "depart"))
+            ways = [
+                self.number(where, one, name, 0.0, above=0.0) if name in one else None
+                for name in ("approach", "depart")
+            ]
+            yield OwnGrasp(self.pose(where, one, "grip"), ways[0], ways[1])
 
     def sensor(self, key: str, row: dict[str, Value]) -> Sensor:
         self.known(key, row, ("name", "signal"), (*_FORM_KEYS, "at", "robot", "parts"))

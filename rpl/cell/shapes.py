@@ -67,7 +67,7 @@ class Cylinder:
         side = np.array([point[0], point[1], 0.0]) / far if far > 1e-12 else np.array([1.0, 0.0, 0.0])
         flat = np.array([0.0, 0.0, math.copysign(1.0, point[2])])
         beside, beyond = far - radius, abs(float(point[2])) - half
-        if beside <= 0.0 and beyond <= 0.0:  # inside
+        if beside <= 1e-9 and beyond <= 1e-9:  # inside, or on it but for rounding
             if beside > beyond:
                 return side * radius + np.array([0.0, 0.0, point[2]]), side
             return side * far + flat * half, flat
