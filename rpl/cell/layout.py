@@ -171,6 +171,7 @@ class Layout:
     scatter: float = 0.0
     tangle: float = 0.0
     near_mm: float = 20.0  # distances below this are near misses
+    lost_beyond_mm: float | None = None  # collisions deeper than this knock a part out of its gripper
     path: str = ""
 
     def __bool__(self) -> bool:

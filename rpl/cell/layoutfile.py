@@ -10,7 +10,7 @@
     [[sensor]]    name = "seat"  signal = "di4"  FORM  [at]  [robot]  [parts = ["cube"]]
     [[wire]]      from = "left.do5"  to = "right.di2"
     [[removal]]   when = "do6"  fixture = "pallet"  [after = 1.0]  [robot]
-    [bodies]      [allow = [["jaws", "table"]]]  [near]  [scatter]  [tangle]
+    [bodies]      [allow = [["jaws", "table"]]]  [near]  [lost_beyond]  [scatter]  [tangle]
 
 FORM is one of box = [x, y, z], cylinder = [diameter, height], sphere = diameter, capsule = [diameter, length],
 extrusion = { outline = [[x, y], ...], height = h } and mesh = "file.stl" (with [scale]). Poses (`at`, `base`, `grip`)
@@ -338,7 +338,7 @@ class LayoutReader(RowReader):
     def bodies(self, given: Value) -> dict[str, Value]:
         if not isinstance(given, dict):
             raise self.wrong("bodies", "must be a table")
-        self.known("bodies", given, (), ("allow", "near", "scatter", "tangle"))
+        self.known("bodies", given, (), ("allow", "near", "scatter", "tangle", "lost_beyond"))
         allow = given.get("allow", [])
         if not isinstance(allow, list) or not all(
             isinstance(pair, list) and len(pair) == 2 and all(isinstance(one, str) for one in pair) for pair in allow
@@ -346,6 +346,7 @@ class LayoutReader(RowReader):
             raise self.wrong("bodies.allow", "must be a list of pairs of names")
         return {
             "allowed": tuple((str(a), str(b)) for a, b in allow),
+            "lost_beyond_mm": self.number("bodies", given, "lost_beyond", 0.0) if "lost_beyond" in given else None,
             "near_mm": self.number("bodies", given, "near", 20.0),
             "scatter": self.number("bodies", given, "scatter", 0.0, most=10.0),
             "tangle": self.number("bodies", given, "tangle", 0.0, most=1.0),

@@ -39,6 +39,15 @@ class Grasp:
 
 
 @dataclass(frozen=True, slots=True)
+class Knock:
+    """What a gripper holds is knocked out of it at a time (s), by something of this name."""
+
+    t: float
+    gripper: str
+    by: str
+
+
+@dataclass(frozen=True, slots=True)
 class Opening:
     """A gripper has opened. `open`: FALSE where it closes; `width_mm`: of its jaws then."""
 

@@ -8,7 +8,7 @@ queue and no program: the machines of the robots, which it asks for time and fla
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -17,7 +17,7 @@ import numpy as np
 from rpl.cell.falling import GRAVITY_MM_S2, PRESSED_MM, Laws, Obstacle, below, fall, obstacle_of, obstacles_of
 from rpl.cell.grasping import Hold, Miss, grasp
 from rpl.cell.layout import Gripper, Layout, Part, Sensor, Switch
-from rpl.cell.record import Grasp, Opening, Placed
+from rpl.cell.record import Grasp, Knock, Opening, Placed
 from rpl.cell.shapes import Facets, bounds_at, moved
 from rpl.emulator.rotations import FloatArray, invert_pose
 from rpl.errors import UsageError
@@ -63,8 +63,9 @@ class _There:
 class World:
     """What moves in a cell. Raises UsageError where the cell cannot be as its file says."""
 
-    def __init__(self, layout: Layout, seed: int) -> None:
+    def __init__(self, layout: Layout, seed: int, knocks: Sequence[Knock] = ()) -> None:
         self.layout = layout
+        self.knocks = tuple(knocks)
         self.random = random.Random(seed)
         self.movers: dict[str, Mover] = {}
         self.way: dict[str, int] = {}  # how many ways each robot has begun
@@ -124,6 +125,10 @@ class World:
         for one in self._grippers(robot):
             if one.opened:
                 mover.input_later(0.0, one.opened, True)
+        mine = {one.name for one in self._grippers(robot)}
+        for number, knock in enumerate(self.knocks):
+            if knock.gripper in mine:
+                mover.deed_later(knock.t, f"knock {number}")
         for sensor in self.layout.sensors:
             if self._robot_of(sensor.robot) == robot and self._sees(sensor, 0.0):
                 self.seen[sensor.name] = True
@@ -187,10 +192,14 @@ class World:
                     self.placed.append(Placed(mover.now, part, "gone", at.pose))
             case "close":
                 self._close(mover, self._gripper(name))
+            case "knock":
+                knock = self.knocks[int(name)]
+                self._lose(mover, self._gripper(knock.gripper), f"knocked out by {knock.by}")
             case "slip":
                 number, needed, gripper = name.split(" ", 2)
-                if self.way[robot] == int(number) and self.grips[gripper].holds:
-                    self._slip(mover, self._gripper(gripper), needed)
+                if self.way[robot] == int(number):
+                    holds = f"it holds {self._gripper(gripper).force_n:g} N"
+                    self._lose(mover, self._gripper(gripper), f"lost on the way: {needed} N are needed, {holds}")
             case "hold":
                 number, _, gripper = name.partition(" ")
                 self._hold(mover, self._gripper(gripper), int(number))
@@ -226,12 +235,11 @@ class World:
         beyond = np.flatnonzero(needed > gripper.force_n)
         return (float(times[beyond[0] + 1]), float(needed.max())) if len(beyond) else None
 
-    def _slip(self, mover: Mover, gripper: Gripper, needed: str) -> None:
+    def _lose(self, mover: Mover, gripper: Gripper, why: str) -> None:
         """What it holds falls out of a closed gripper."""
-        held = ", ".join(self.grips[gripper.name].holds)
-        why = f"lost on the way: {needed} N are needed, it holds {gripper.force_n:g} N"
-        self.grasps.append(Grasp(mover.now, gripper.name, held, False, why))
-        self._let_go(mover, gripper)
+        if held := ", ".join(self.grips[gripper.name].holds):
+            self.grasps.append(Grasp(mover.now, gripper.name, held, False, why))
+            self._let_go(mover, gripper)
 
     def _close(self, mover: Mover, gripper: Gripper) -> None:
         grip = self.grips[gripper.name]

@@ -102,8 +102,7 @@ def run_among_bodies(cell: Cell, asked: CellAsked, write: Callable[[CellRun, Seq
     if asked.bodies.repeat > 1:
         return _repeated(cell, asked, loaded)
     with waiting("running"):
-        run = _once(cell, asked, loaded)
-        found = _collisions(run) if asked.bodies.collisions else None
+        run, found = _looked_at(cell, asked, loaded) if asked.bodies.collisions else (_once(cell, asked, loaded), None)
         if found is not None and asked.bodies.stops and found.collisions:
             run = _stopped(cell, asked, loaded, found)
     _told(run, outcome_of(run), found, asked)
@@ -192,10 +191,13 @@ def _once(cell: Cell, asked: CellAsked, loaded: Sequence[Loaded]) -> CellRun:
     return run_cell(cell, [one.driven for one in loaded], asked.limits)
 
 
-def _collisions(run: CellRun) -> Collisions:
-    from rpl.workcell.collisions import find_collisions
+def _looked_at(cell: Cell, asked: CellAsked, loaded: Sequence[Loaded]) -> tuple[CellRun, Collisions]:
+    """A run and its collisions; with what they knock out of grippers, unless the first of them ends it."""
+    from rpl.workcell.knocks import run_and_look
 
-    return find_collisions(run)
+    layout = replace(cell.layout, lost_beyond_mm=None) if asked.bodies.stops else cell.layout
+    run, found, _ = run_and_look(replace(cell, layout=layout), [one.driven for one in loaded], asked.limits)
+    return run, found
 
 
 def _stopped(cell: Cell, asked: CellAsked, loaded: Sequence[Loaded], found: Collisions) -> CellRun:

@@ -204,14 +204,20 @@ def _run(asked: CellAsked, cell: str | None) -> _Found | None:
         if not asked.paths:
             raise UsageError("no program: name its PATH, or a cell file whose robots have programs with --cell")
         return _alone(asked, surroundings)
+    from rpl.workcell.knocks import run_and_look
     from rpl.workcell.running import run_cell
 
     loaded = loaded_robots(surroundings, asked)
     if loaded is None:
         return None
+    driven, reads = [one.driven for one in loaded], tuple(one.read for one in loaded)
+    if surroundings.layout.lost_beyond_mm is not None:
+        with waiting("running"):
+            run, found, _ = run_and_look(surroundings, driven, asked.limits)
+        return _Found(run, reads, found.collisions)
     with waiting("running"):
-        run = run_cell(surroundings, [one.driven for one in loaded], asked.limits)
-    return _Found(run, tuple(one.read for one in loaded), _collisions(run))
+        run = run_cell(surroundings, driven, asked.limits)
+    return _Found(run, reads, _collisions(run))
 
 
 def _collisions(run: CellRun) -> tuple[Collision, ...]:

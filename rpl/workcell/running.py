@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from rpl.cell.cellfile import Cell
 from rpl.cell.layout import Layout, RobotPlace
+from rpl.cell.record import Knock
 from rpl.cell.world import World
 from rpl.depth import at_any_depth
 from rpl.errors import UsageError
@@ -48,18 +49,24 @@ def run_cell(
     driven: Sequence[Driven],
     limits: Limits = DEFAULTS,
     on_event: Callable[[str, Event], None] | None = None,
+    knocks: Sequence[Knock] = (),
 ) -> CellRun:
-    """Run the programs of all robots of a cell. `on_event` is told the robot's name and what happened.
+    """Run the programs of all robots of a cell. `on_event` is told the robot's name and what happened. `knocks`: what
+    grippers lose on the way (see rpl.workcell.knocks).
 
     Raises UsageError where the cell does not fit the programs, RunInterrupted for Ctrl-C. Faults are in the results.
     """
-    return at_any_depth(lambda: _run(cell, driven, limits, on_event))
+    return at_any_depth(lambda: _run(cell, driven, limits, on_event, knocks))
 
 
 def _run(
-    cell: Cell, driven: Sequence[Driven], limits: Limits, on_event: Callable[[str, Event], None] | None
+    cell: Cell,
+    driven: Sequence[Driven],
+    limits: Limits,
+    on_event: Callable[[str, Event], None] | None,
+    knocks: Sequence[Knock],
 ) -> CellRun:
-    world = World(cell.layout, cell.seed)
+    world = World(cell.layout, cell.seed, knocks)
     if not driven:
         time = world.settle_alone()
         placed = tuple(sorted(world.placed, key=lambda one: one.t))

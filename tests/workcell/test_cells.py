@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rpl.cell import parse_cell, read_cell
+from rpl.cell.layout import Body, Fixture
 from rpl.cell.shapes import Box
 from rpl.diagnostics import Diagnostics
 from rpl.emulator.model import load_robot
@@ -22,6 +23,7 @@ from rpl.simulation import Simulation, run_program
 from rpl.source import source_from_bytes
 from rpl.translation import translate_program
 from rpl.workcell.collisions import find_collisions
+from rpl.workcell.knocks import run_and_look
 from rpl.workcell.loading import robots_of
 from rpl.workcell.outcome import outcome_of
 from rpl.workcell.repeating import of_mean, of_share, repeat, statistics, student_t
@@ -229,6 +231,23 @@ def test_what_is_too_heavy_for_its_acceleration_is_lost():
             assert made.grasps[-1].why.startswith("lost on the way: ")
             assert ends(made) == {"box": ("rests", "table")}
     assert ok == {4.0: [True, False], 20.0: [True]}
+
+
+def test_a_collision_knocks_a_part_out_of_its_gripper():
+    """A post stands in the way of the box, not of the gripper; where it stands the box falls, and the hand goes on."""
+    cell = cell_of("box_pick/krl.toml")
+    post = Fixture("post", (Body(Box((60.0, 20.0, 180.0)), pose_matrix((530.0, 0.0, 90.0))),))
+    gripper = replace(cell.layout.grippers[0], misses=())
+    layout = replace(cell.layout, grippers=(gripper,), fixtures=(*cell.layout.fixtures, post))
+    driven = [one.driven for one in robots_of(cell, Diagnostics())]
+    keeps, found, knocks = run_and_look(replace(cell, layout=layout), driven)
+    assert knocks == ()
+    assert {("box", "post"), ("post", "box")} & {(one.a, one.b) for one in found.collisions}
+    assert keeps.grasps[-1].ok
+    loses, _, (knock,) = run_and_look(replace(cell, layout=replace(layout, lost_beyond_mm=1.0)), driven)
+    assert knock.by == "post"
+    assert (loses.grasps[-1].part, loses.grasps[-1].ok, loses.grasps[-1].why) == ("box", False, "knocked out by post")
+    assert abs(outcome_of(loses).parts[0].pose[1, 3]) < 100.0
 
 
 def test_two_parts_between_the_jaws_are_a_double_pick():
