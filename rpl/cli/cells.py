@@ -248,7 +248,7 @@ def document(run: CellRun, outcome: Outcome, found: Collisions | None) -> dict[s
         "fault": faults[0].as_json() if faults else None,
         **({"assumed": assumed} if any(result.assumed is not None for _, result in results) else {}),
         **outcome.as_json(),
-        **(found.as_json() if found is not None else {}),
+        **(found.as_json() if found is not None else {"collisions": None, "near": None}),
         "notes": [*outcome.notes, *(found.notes if found is not None else ())],
     }
 
@@ -268,6 +268,8 @@ def shown(run: CellRun, outcome: Outcome, found: Collisions | None) -> Iterator[
     yield from (line for _, line in sorted(said, key=lambda one: one[0]))
     if found is not None:
         yield from found.lines()
+    elif run.robots:
+        yield "collisions were not looked for (--collisions does)"
     for name, times in outcome.cycles:
         if times:
             mean = sum(times) / len(times)
