@@ -42,11 +42,13 @@ class Mover(Protocol):
 
 @dataclass(slots=True)
 class _Grip:
-    """What changes of a gripper. `closes`: number of the closing that is under way or was the last one."""
+    """What changes of a gripper. `closes`: number of the closing that is under way or was the last one. `also`: parts
+    that it has closed on while another gripper holds them: they are its own when that one opens."""
 
     closed: bool = False
     closes: int = 0
     holds: dict[str, FloatArray] = field(default_factory=dict)  # part -> pose in the flange
+    also: list[str] = field(default_factory=list)
 
 
 @dataclass(slots=True)
@@ -257,7 +259,9 @@ class World:
         if not grip.closed or grip.closes != number:
             return  # opened again on the way
         flange = mover.flange_in_cell()
-        free = [(self._by_name[name], at.pose) for name, at in self.there.items() if self._is_free(at, now)]
+        free = [
+            (self._by_name[name], self._pose_of(name)) for name, at in self.there.items() if self._is_there(at, now)
+        ]
         found = grasp(gripper, flange @ gripper.grip, free)
         slipped = number in gripper.misses or (
             gripper.chance_of_miss > 0.0 and self.random.random() < gripper.chance_of_miss
@@ -269,6 +273,9 @@ class World:
             self.openings.append(Opening(now, gripper.name, False, gripper.opening[0]))
             if gripper.closed:
                 mover.input_later(now, gripper.closed, True)
+            return
+        if self.there[found.part.name].held_by:
+            self._share(mover, gripper, found.part.name)
             return
         for part, in_grip in ((found.part, found.pose), *found.too):
             before = self.there[part.name].pose
@@ -286,6 +293,27 @@ class World:
         if gripper.gripped:
             mover.input_later(now, gripper.gripped, True)
 
+    def _share(self, mover: Mover, gripper: Gripper, name: str) -> None:
+        """Close on a part that another gripper holds: it stays as that one has it until that one opens."""
+        self.grips[gripper.name].also.append(name)
+        why = f"from {self.there[name].held_by}"
+        self.grasps.append(Grasp(mover.now, gripper.name, name, True, why))
+        if gripper.gripped:
+            mover.input_later(mover.now, gripper.gripped, True)
+
+    def _taken_over(self, name: str, pose: FloatArray, now: float) -> bool:
+        """Has another gripper closed on a part that is let go at a pose in the cell? Then it is its own."""
+        for one in self.layout.grippers:
+            if name in (also := self.grips[one.name].also):
+                also.remove(name)
+                flange = self.movers[self._robot_of(one.robot)].flange_in_cell()
+                carried = invert_pose(flange) @ pose
+                self.there[name] = _There(pose, one.name, now, one.name)
+                self.grips[one.name].holds[name] = carried
+                self.placed.append(Placed(now, name, "held", carried, one.name))
+                return True
+        return False
+
     def _open(self, mover: Mover, gripper: Gripper) -> None:
         grip, now = self.grips[gripper.name], mover.now
         if not grip.closed:
@@ -300,13 +328,16 @@ class World:
 
     def _let_go(self, mover: Mover, gripper: Gripper) -> None:
         grip, now = self.grips[gripper.name], mover.now
-        if gripper.gripped and grip.holds:
+        if gripper.gripped and (grip.holds or grip.also):
             mover.input_later(now, gripper.gripped, False)
+        grip.also.clear()
         flange = mover.flange_in_cell()
         held, grip.holds = grip.holds, {}
         # The lowest first: what it carries comes to lie on it.
         for name in sorted(held, key=lambda one: float((flange @ held[one])[2, 3])):
             part, pose = self._by_name[name], flange @ held[name]
+            if self._taken_over(name, pose, now):
+                continue
             if inside := self._stuck_in(part, pose):
                 self.notes.append(f"{now:.3f} s: {name} is let go inside {inside}")
             self._fall(part, pose, now)
@@ -319,8 +350,8 @@ class World:
 
     # ---- parts
 
-    def _is_free(self, at: _There, now: float) -> bool:
-        return not at.held_by and not at.lost and at.since <= now
+    def _is_there(self, at: _There, now: float) -> bool:
+        return not at.lost and at.since <= now
 
     def _obstacles(self) -> list[Obstacle]:
         lying = [(name, at) for name, at in self.there.items() if not at.held_by and not at.lost]
