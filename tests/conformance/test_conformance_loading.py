@@ -22,7 +22,7 @@ OPEN = {
     "tp-system-variable": "a free register keeps the number of the frame in force",
     "krl-reserved": "names of the source's own KRL",
 }
-LANGUAGES = sorted(folder.name for folder in SAMPLES.iterdir() if folder.is_dir())
+LANGUAGES = sorted({path.parents[1].name for path in SAMPLES.glob("*/*/expected.toml")})
 TARGETS = [name for name in registry.target_names() if name != "rpl" and registry.dialect(name).loading is not None]
 PAIRS = [(source, target) for source in LANGUAGES for target in TARGETS if source != target]
 
