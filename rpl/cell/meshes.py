@@ -92,11 +92,22 @@ def _read(path: Path, kind: str) -> Any:
         if kind in STEP:
             with TemporaryDirectory() as folder:
                 return trimesh.load_scene(_converted(path, Path(folder) / "part.glb")).to_mesh()
+        if kind == ".stl" and _is_cut_off(path):
+            raise ValueError("fewer triangles than it says")
         return trimesh.load_scene(path, **({"skip_materials": True} if kind == ".obj" else {})).to_mesh()
     except _UNREADABLE as error:
         raise UsageError(
             f"{path}: it cannot be read as {kind}: it is damaged, or something else; export it again"
         ) from error
+
+
+def _is_cut_off(path: Path) -> bool:
+    """Has a binary STL less than its head says: 80 bytes of text, the number of triangles, 50 bytes for each?"""
+    with path.open("rb") as file:
+        head = file.read(84)
+    if len(head) < 84 or head.lstrip()[:5].lower() == b"solid":  # none, or one of text
+        return False
+    return path.stat().st_size < 84 + 50 * int.from_bytes(head[80:84], "little")
 
 
 def _converted(path: Path, into: Path) -> Path:
