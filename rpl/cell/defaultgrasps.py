@@ -1,10 +1,10 @@
 """Where a gripper takes a part by default: for each way in which the part can lie, the place of the grip point, and the
 places before and behind it, all in the frame of the part, so that a program needs the frame of the part alone.
 
-The rule is the textbook's (Craig, Introduction to Robotics, ch. 13): they follow from the box of the part as it lies
-and from the gripper, and whoever knows better overrides them. Jaws take the part from above across its narrowest width
-between two flat sides that they can open for, in the middle of its height; a cup takes the facet above the centre of
-mass.
+The rule is the textbook's (Craig, Introduction to Robotics, ch. 13; M, at second hand): they follow from the box of the
+part as it lies and from the gripper, and whoever knows better overrides them. Jaws take the part from above across its
+narrowest width between two flat sides that they can open for, in the middle of its height; a cup takes the facet above
+the centre of mass.
 """
 
 from __future__ import annotations

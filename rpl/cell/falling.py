@@ -1,9 +1,10 @@
 """Where a part comes to rest that is let go.
 
-It falls to the surface below it, bounces with the product of both restitution coefficients, and wanders off sideways
-to at most a distance that grows with the energy of its fall; what it falls on next may be another surface, or another
+It falls to the surface below it, bounces with the product of both restitution coefficients, and wanders off sideways to
+at most a distance that grows with the energy of its fall; what it falls on next may be another surface, or another
 part. How it lies in the end is one of the stable states of its form. These are the rules of the textbook's system
-(Craig, Introduction to Robotics, ch. 13): not dynamics but their outcome, drawn from the seed of the cell.
+(Craig, Introduction to Robotics, ch. 13; M, at second hand): not dynamics but their outcome, drawn from the seed of the
+cell.
 
 The height of one body above another is exact for facets: it is least where a corner is over a face, a face over a
 corner, or an edge over an edge.

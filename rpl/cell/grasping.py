@@ -1,11 +1,11 @@
 """What a gripper holds when it closes: which part, and how it comes to lie between the jaws or on the cup.
 
-The rules are those of the textbook's off-line programming system (Craig, Introduction to Robotics, ch. 13): a part
-can be grasped whose box contains the tool centre point; of several the nearest is. Parallel jaws turn a part about
-their own z until its width between them is at a minimum and centre it: squeezing without friction, quasi-static, as
-of Goldberg, Orienting Polygonal Parts without Sensors, Algorithmica 10 (1993), whose diameter function only has
-minima where an edge lies flat on a jaw. A cup takes the facet that its axis pierces, and turns the part by the least
-rotation that brings the facet's normal onto its axis.
+The rules are those of the textbook's off-line programming system (Craig, Introduction to Robotics, ch. 13; M, at second
+hand): a part can be grasped whose box contains the tool centre point; of several the nearest is. Parallel jaws turn a
+part about their own z until its width between them is at a minimum and centre it: squeezing without friction, quasi-
+static, as of Goldberg, Orienting Polygonal Parts without Sensors, Algorithmica 10 (1993), whose diameter function only
+has minima where an edge lies flat on a jaw. A cup takes the facet that its axis pierces, and turns the part by the
+least rotation that brings the facet's normal onto its axis.
 """
 
 from __future__ import annotations
