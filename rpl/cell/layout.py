@@ -187,8 +187,22 @@ class Layout:
     def by_name(self) -> Mapping[str, Part]:
         return {one.name: one for one in self.parts}
 
+    def of(self, robot: str) -> Layout:
+        """What is wired to one robot."""
+        mine = (ONLY_ROBOT, robot)
+        return replace(
+            self,
+            robots=tuple(one for one in self.robots if one.name == robot),
+            grippers=tuple(one for one in self.grippers if one.robot in mine),
+            sensors=tuple(one for one in self.sensors if one.robot in mine),
+            removals=tuple(one for one in self.removals if one.robot in mine),
+        )
+
     def signals(self) -> Iterator[str]:
-        """Every signal that bodies are wired to, of a cell of one robot."""
+        """Every signal that bodies and wires are joined to, of a cell of one robot (see `of`)."""
+        for wire in self.wires:
+            yield from (wire.output for one in self.robots if one.name == wire.robot)
+            yield from (wire.input for one in self.robots if one.name == wire.to_robot)
         for gripper in self.grippers:
             named = (gripper.close.signal, gripper.gripped, gripper.opened, gripper.closed)
             yield from (one for one in named if one)

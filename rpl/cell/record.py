@@ -29,13 +29,15 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Grasp:
-    """A gripper has closed. `part`: what it was about, "" where nothing was there; `why`: it holds nothing."""
+    """A gripper has closed, or lost on the way (`lost`) what it held. `part`: what it was about, "" where nothing was
+    there; `why`: it holds nothing, or what is to be said of it."""
 
     t: float
     gripper: str
     part: str
     ok: bool
     why: str = ""
+    lost: bool = False
 
 
 @dataclass(frozen=True, slots=True)

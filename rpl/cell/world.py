@@ -22,6 +22,8 @@ from rpl.cell.shapes import Facets, bounds_at, moved
 from rpl.emulator.rotations import FloatArray, invert_pose
 from rpl.errors import UsageError
 
+# The deed that changes nothing by itself: behind each deed it is seen which parts come and what sensors see.
+LOOK = "look"
 # While an arm with a part moves, sensors are looked at so often (s).
 LOOK_S = 0.02
 # Steps (s) in which the acceleration of what is held is looked at.
@@ -136,11 +138,15 @@ class World:
                 self.seen[sensor.name] = True
                 mover.input_later(0.0, sensor.signal, True)
         for since in {each.since for each in self.there.values() if each.since > 0.0}:
-            mover.deed_later(since, "look")
-        if len(self.movers) == 1:
-            for part in self.to_come:
-                if part.again_s is None:
-                    mover.deed_later(part.comes_s, f"come {part.name}")
+            mover.deed_later(since, LOOK)
+        for part in self.to_come:
+            if part.again_s is None:
+                mover.deed_later(part.comes_s, LOOK)
+
+    def _look_later(self, time_s: float) -> None:
+        """See then which parts come and what sensors see: on every agenda, for the one robot may have ended by then."""
+        for mover in self.movers.values():
+            mover.deed_later(time_s, LOOK)
 
     def settle_alone(self) -> float:
         """Without robots: let all parts come; the time (s) at which the last one rests."""
@@ -175,8 +181,8 @@ class World:
         if self.layout.sensors and any(self.grips[one.name].holds for one in self._grippers(robot)):
             mover = self.movers[robot]
             for number in range(1, int((end_s - start_s) / LOOK_S) + 1):
-                mover.deed_later(start_s + number * LOOK_S, "look")
-            mover.deed_later(end_s, "look")
+                mover.deed_later(start_s + number * LOOK_S, LOOK)
+            mover.deed_later(end_s, LOOK)
 
     def happen(self, robot: str, deed: str) -> None:
         """Something that `switches` names has been asked for, or has come due."""
@@ -240,8 +246,10 @@ class World:
     def _lose(self, mover: Mover, gripper: Gripper, why: str) -> None:
         """What it holds falls out of a closed gripper."""
         if held := ", ".join(self.grips[gripper.name].holds):
-            self.grasps.append(Grasp(mover.now, gripper.name, held, False, why))
+            self.grasps.append(Grasp(mover.now, gripper.name, held, False, why, lost=True))
             self._let_go(mover, gripper)
+            if gripper.closed:
+                mover.input_later(mover.now, gripper.closed, True)
 
     def _close(self, mover: Mover, gripper: Gripper) -> None:
         grip = self.grips[gripper.name]
@@ -320,7 +328,7 @@ class World:
             return
         grip.closed = False
         self.openings.append(Opening(now, gripper.name, True, gripper.opening[1]))
-        if gripper.closed and not grip.holds:
+        if gripper.closed and not grip.holds and not grip.also:
             mover.input_later(now, gripper.closed, False)
         if gripper.opened:
             mover.deed_later(now + gripper.time_s, f"opened {grip.closes} {gripper.name}")
@@ -341,7 +349,7 @@ class World:
             if inside := self._stuck_in(part, pose):
                 self.notes.append(f"{now:.3f} s: {name} is let go inside {inside}")
             self._fall(part, pose, now)
-            mover.deed_later(self.there[name].since, "look")
+            self._look_later(self.there[name].since)
 
     def _upon(self, name: str) -> list[str]:
         """The parts that stand on a part, and on these."""
@@ -376,8 +384,7 @@ class World:
         part = self._by_name[taken]
         first = next((one for one in self.to_come if one.kind == part.kind), None)
         if first is not None and first.again_s is not None:
-            for mover in list(self.movers.values())[:1]:
-                mover.deed_later(now + first.again_s, f"come {first.name}")
+            self._look_later(now + first.again_s)
 
     def _parts_come(self, now: float) -> None:
         """Those of feeders whose place is free, each feeder's next one."""
@@ -387,6 +394,7 @@ class World:
                 continue
             self.to_come.remove(part)
             self._fall(part, part.at, now)
+            self._look_later(self.there[part.name].since)
 
     def _due(self, part: Part) -> float:
         if part.again_s is None:

@@ -20,7 +20,7 @@ from rpl.cli.output import (
     say,
     waiting,
 )
-from rpl.cli.reports import assumptions, show_reports, warnings_of
+from rpl.cli.reports import assumptions, say_remarks, say_what_is_assumed, show_reports, warnings_of
 from rpl.diagnostics import Severity
 from rpl.errors import UsageError
 from rpl.showing import counted, printable
@@ -96,6 +96,8 @@ def run_among_bodies(cell: Cell, asked: CellAsked, write: Callable[[CellRun, Seq
     from rpl.workcell.outcome import outcome_of
 
     _about_all(cell, asked.reports)
+    if asked.bodies.stops and asked.bodies.repeat > 1:
+        raise UsageError("--stop-at-collision is about one run: --repeat counts --collisions")
     loaded = loaded_robots(cell, asked)
     if loaded is None:
         return 1
@@ -127,6 +129,8 @@ def _about_all(cell: Cell, reports: Reports | None) -> None:
 
 def _told(run: CellRun, outcome: Outcome, found: Collisions | None, asked: CellAsked) -> None:
     """What came of it, for machines or for people; with the reports about one robot that are asked for."""
+    for one in run.robots:
+        say_remarks(one.result, one.model)
     first = run.robots[0] if run.robots else None
     layers, times = None, None
     if first is not None and asked.reports is not None:
@@ -149,9 +153,8 @@ def _told(run: CellRun, outcome: Outcome, found: Collisions | None, asked: CellA
 
 def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
     """The robots with their programs; None where one has errors, which are shown."""
-    from rpl.proof.cellnames import report_unknown_signals
     from rpl.workcell.loading import Loaded, robots_of, settled
-    from rpl.workcell.running import Driven
+    from rpl.workcell.running import Driven, its_share
 
     diagnostics = collector()
     controller = asked.reports.controller if asked.reports is not None else None
@@ -172,12 +175,19 @@ def loaded_robots(cell: Cell, asked: CellAsked) -> tuple[Loaded, ...] | None:
     elif asked.robots:
         raise UsageError(f"--robot goes with the PATH of a program: without one the arms are those of {cell.path}")
     elif robots or not cell.layout.grippers:
-        found = robots_of(cell, diagnostics)  # without any the parts fall, and that is all
+        if asked.entry is not None and len(robots) != 1:
+            raise UsageError(f"--entry is about one robot: {cell.path} says of each with which routine it begins")
+        found = tuple(
+            replace(one, driven=replace(one.driven, controller=controller, entry=asked.entry))
+            for one in robots_of(cell, diagnostics)
+        )  # without any robots the parts fall, and that is all
     else:
         raise UsageError("no program: name its PATH, or give the robots of the cell file `programs`")
-    if len(found) == 1:
-        report_unknown_signals(found[0].driven.program, cell, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
+    for driven in (one.driven for one in found):
+        name = driven.place.name
+        own = replace(its_share(cell, name), layout=cell.layout.of(name)) if len(found) > 1 else cell
+        say_what_is_assumed(driven.program, driven.model, own)
     if diagnostics.has_errors and not asked.despite_errors:
         count = counted(len(diagnostics.of(Severity.ERROR)), "error")
         say(f"not started: {count} in the program (--despite-errors runs what was read)", err=True)
@@ -214,14 +224,15 @@ def _repeated(cell: Cell, asked: CellAsked, loaded: Sequence[Loaded]) -> int:
     from rpl.workcell.repeating import repeat, statistics
 
     with waiting(f"running {asked.bodies.repeat} times"):
-        runs = repeat(cell, [one.driven for one in loaded], asked.limits, asked.bodies.repeat, asked.bodies.jobs)
+        driven, look = [one.driven for one in loaded], asked.bodies.collisions
+        runs = repeat(cell, driven, asked.limits, asked.bodies.repeat, asked.bodies.jobs, look)
     made = statistics(runs)
     if asked.as_json:
         print_json(made.as_json())
     else:
         for line in made.lines():
             say(line)
-    return 0 if all(one.status in _FINISHED for one in runs) else 1
+    return 0 if all(one.status in _FINISHED and not one.collisions for one in runs) else 1
 
 
 # ---- what is shown
@@ -263,7 +274,7 @@ def shown(run: CellRun, outcome: Outcome, found: Collisions | None) -> Iterator[
         if (line := _line_of(event, f"{one.place.name}." if several else ""))
     ]
     for grasp in outcome.grasps:
-        held = f"takes {grasp.part}" if grasp.ok else f"misses {grasp.part}".rstrip()
+        held = f"{'takes' if grasp.ok else 'loses' if grasp.lost else 'misses'} {grasp.part}".rstrip()
         said.append((grasp.t, f"{grasp.t:9.3f} s  {grasp.gripper} {held}" + (f": {grasp.why}" if grasp.why else "")))
     yield from (line for _, line in sorted(said, key=lambda one: one[0]))
     if found is not None:

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from rpl.cli.output import numbers, robot_named, say, write_file
+from rpl.cli.output import collector, numbers, print_diagnostics, robot_named, say, write_file
 from rpl.controllerfiles import controller_named
 from rpl.diagnostics import Code, Diagnostic, Severity
 from rpl.errors import UsageError
 from rpl.showing import counted
 
 if TYPE_CHECKING:
+    from rpl import ir
+    from rpl.cell import Cell
     from rpl.emulator.inertias import Body
     from rpl.emulator.mechanismfile import Mechanism
     from rpl.emulator.model import RobotModel
@@ -238,3 +240,29 @@ def assumptions(assumed: Sequence[Assumed]) -> Iterator[str]:
     if assumed:
         yield f"rests on {counted(len(assumed), 'assumed value')} of data to which nothing in the project gives one:"
         yield from (f"  {place_of(one.origin)}: {one.name} = {one.shown}" for one in assumed)
+
+
+def say_what_is_assumed(program: ir.Program, model: RobotModel | None, surroundings: Cell | None) -> None:
+    """What a run takes for granted about its program, and names of the cell file that it does not have."""
+    from rpl.passes.given import with_given
+    from rpl.passes.kept import report_taken_as_zero
+    from rpl.passes.legalise.facts.motion.pulsecounts import report_assumed, report_stations
+    from rpl.proof.cellnames import report_unknown_names
+
+    found = collector()
+    if model is not None:
+        report_assumed(program, model, found)
+        report_stations(program, model, found)
+    report_unknown_names([program], surroundings, found)
+    report_taken_as_zero(with_given(program, surroundings.variables if surroundings is not None else {}), found)
+    print_diagnostics(found, Severity.WARNING)
+
+
+def say_remarks(result: RunResult, model: RobotModel | None) -> None:
+    """What a run has taken for granted on its way."""
+    if model is not None:
+        from rpl.runtime.remarks import report_remarks
+
+        found = collector()
+        report_remarks(result, model.mechanisms, found)
+        print_diagnostics(found, Severity.WARNING)

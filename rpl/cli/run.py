@@ -30,10 +30,18 @@ from rpl.cli.output import (
     waiting,
     write_file,
 )
-from rpl.cli.reports import Reports, assumptions, report_options, reports_of, show_reports, warnings_of
+from rpl.cli.reports import (
+    Reports,
+    assumptions,
+    report_options,
+    reports_of,
+    say_remarks,
+    say_what_is_assumed,
+    show_reports,
+    warnings_of,
+)
 from rpl.diagnostics import Diagnostics, Severity
 from rpl.errors import UsageError
-from rpl.passes.legalise.facts.motion.pulsecounts import report_assumed, report_stations
 from rpl.runtime.trace import RunInterrupted
 from rpl.showing import printable
 
@@ -117,7 +125,7 @@ def command(
     reports = reports_of(plot, dynamics, payload, robot or first_arm(surroundings), timed, controller)
     if surroundings is not None and surroundings.layout and explore is None and new_cell is None:
         asked = CellAsked(paths, dialect, robots, entry, limits, reports, despite_errors, bodies, as_json)
-        return run_among_bodies(surroundings, asked, lambda run, loaded: _written(run, loaded, trace, reports))
+        return _among_bodies(surroundings, asked, trace, reports)
     _about_one_robot(paths, bodies)
     read = read_paths(paths, dialect, diagnostics)
     print_diagnostics(diagnostics, Severity.WARNING)
@@ -147,7 +155,7 @@ def _ended(
     as_json: bool,
 ) -> int:
     """Say and write what a run has shown; the exit status."""
-    _remark(result, model)
+    say_remarks(result, model)
     layers, times = reports.layers(result, model), reports.times(result, model)
     _told(result, layers, times, _outside(result, read), as_json)
     # Last, so that a file that cannot be written does not cost the result.
@@ -155,6 +163,17 @@ def _ended(
     beside = surroundings.mechanisms if surroundings is not None and model is None else ()  # the model has them
     reports.write(result, read, model, layers, beside)
     return 0 if result.status in ("finished", "stopped") else 1
+
+
+def _among_bodies(cell: Cell, asked: CellAsked, trace: Path | None, reports: Reports) -> int:
+    """A run in a cell with bodies. Raises UsageError for reports about one run, of many."""
+    about_one = (trace is not None, reports.plot is not None, reports.timed, reports.dynamics)
+    if asked.bodies.repeat > 1 and any(about_one):
+        raise UsageError("--trace, --plot, --times and --dynamics are about one run: leave out --repeat")
+    try:
+        return run_among_bodies(cell, asked, lambda run, loaded: _written(run, loaded, trace, reports))
+    except RunInterrupted as stopped:
+        return _interrupted(stopped, trace)
 
 
 def _about_one_robot(paths: Sequence[str], bodies: BodiesAsked) -> None:
@@ -229,42 +248,22 @@ def _init_cell(path: Path, read: ReadProgram, diagnostics: Diagnostics) -> int:
 
 def _robot_in(robot: str | None, surroundings: Cell | None, program: ir.Program) -> RobotModel | None:
     """The arm with the mechanisms around it; what the run takes for granted about the program is said."""
-    from rpl.passes.given import with_given
-    from rpl.passes.kept import report_taken_as_zero
-    from rpl.proof.cellnames import report_unknown_names
-
-    model, assumptions = robot_named(robot), collector()
-    if model is not None:
-        model = model.among(surroundings.mechanisms, surroundings.path) if surroundings is not None else model
-        report_assumed(program, model, assumptions)
-        report_stations(program, model, assumptions)
-    report_unknown_names([program], surroundings, assumptions)
-    given = surroundings.variables if surroundings is not None else {}
-    report_taken_as_zero(with_given(program, given), assumptions)
-    print_diagnostics(assumptions, Severity.WARNING)
+    model = robot_named(robot)
+    if model is not None and surroundings is not None:
+        model = model.among(surroundings.mechanisms, surroundings.path)
+    say_what_is_assumed(program, model, surroundings)
     return model
 
 
 def _settled(read: ReadProgram, surroundings: Cell | None) -> ir.Program:
     """The program to run: without settings that it takes from what only the controller knows, each of which is said."""
-    from rpl.passes.given import with_given
-    from rpl.passes.unsetsettings import settings_as_they_were
+    from rpl.cell import Cell as NoCell
+    from rpl.workcell.loading import settled
 
     left = collector()
-    known = with_given(read.program, surroundings.variables if surroundings is not None else {})
-    program = settings_as_they_were(read.program, known, left)
+    program = settled(read, surroundings if surroundings is not None else NoCell(), left)
     print_diagnostics(left, Severity.WARNING)
     return program
-
-
-def _remark(result: RunResult, model: RobotModel | None) -> None:
-    """What the run has taken for granted on its way."""
-    if model is not None:
-        from rpl.runtime.remarks import report_remarks
-
-        remarks = collector()
-        report_remarks(result, model.mechanisms, remarks)
-        print_diagnostics(remarks, Severity.WARNING)
 
 
 def _interrupted(stopped: RunInterrupted, trace: Path | None) -> int:

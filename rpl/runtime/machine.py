@@ -418,8 +418,8 @@ class Machine:
         for each in reactions:
             if each.unanswered:
                 self.reacted[each] += 1
-            if each.deed:
-                self.schedule(self.now, INPUTS, "deed", 0, each.deed)
+            if each.deed and self.bodies is not None:
+                self.bodies.happen(each.deed)  # at once: the program may end with it
             elif self.reacted[each] not in each.unanswered:
                 self.schedule(self.now + each.after_s, INPUTS, "input", 0, each.signal, each.result)
 

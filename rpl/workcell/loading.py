@@ -42,7 +42,9 @@ def _loaded(cell: Cell, place: RobotPlace, diagnostics: Diagnostics) -> Loaded:
     read = read_program(place.programs, None, diagnostics)
     if not read.files:
         raise UsageError(f"{cell.path}: {place.key}.programs: no robot program was found")
-    return Loaded(Driven(place, settled(read, cell, diagnostics), load_robot(place.arm)), read)
+    return Loaded(
+        Driven(place, settled(read, cell, diagnostics), load_robot(place.arm).among(cell.mechanisms, cell.path)), read
+    )
 
 
 def settled(read: ReadProgram, cell: Cell, diagnostics: Diagnostics) -> ir.Program:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from typing import TYPE_CHECKING
 
+from rpl.workcell.knocks import run_and_look
 from rpl.workcell.outcome import outcome_of
 from rpl.workcell.running import Driven, run_cell
 
@@ -31,6 +32,7 @@ class OneOfMany:
     grasps: int
     missed: int
     lost: int
+    collisions: int | None = None  # None: nobody looked
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +58,12 @@ class Statistics:
     cycle_s: Interval | None
     held: Interval | None  # share of the closings that held a part
 
+    @property
+    def collisions(self) -> int | None:
+        """Of all runs; None where nobody looked."""
+        counts = [one.collisions for one in self.runs if one.collisions is not None]
+        return sum(counts) if counts else None
+
     def as_json(self) -> dict[str, Value]:
         return {
             "runs": len(self.runs),
@@ -64,6 +72,7 @@ class Statistics:
             "cycle_s": self.cycle_s.as_json() if self.cycle_s is not None else None,
             "grasped": self.held.as_json() if self.held is not None else None,
             "lost_parts": sum(one.lost for one in self.runs),
+            "collisions": self.collisions,
             "seeds": [
                 {"seed": one.seed, "status": one.status, "time_s": round(one.time_s, 6), "missed": one.missed}
                 for one in self.runs
@@ -74,30 +83,44 @@ class Statistics:
         """For people."""
         ends = ", ".join(f"{count} {status}" for status, count in self.statuses)
         yield f"{len(self.runs)} runs: {ends}"
+        if self.collisions is None:
+            yield "collisions were not looked for (--collisions does)"
+        else:
+            hit = sum(bool(one.collisions) for one in self.runs)
+            yield f"{hit} runs with collisions, {self.collisions} in all"
         rows = (("time", self.time_s, " s"), ("cycle", self.cycle_s, " s"), ("grasps that hold", self.held, ""))
         for name, one, unit in rows:
             if one is not None:
                 yield f"{name}: {one.mean:.3f}{unit} ({one.low:.3f} to {one.high:.3f} with 95 % confidence)"
 
 
-def repeat(cell: Cell, driven: Sequence[Driven], limits: Limits, times: int, jobs: int) -> tuple[OneOfMany, ...]:
-    """Run the cell so often, from its own seed on; `jobs` processes share the work, whose result is the same."""
+def repeat(
+    cell: Cell, driven: Sequence[Driven], limits: Limits, times: int, jobs: int, look: bool = False
+) -> tuple[OneOfMany, ...]:
+    """Run the cell so often, from its own seed on; `jobs` processes share the work, whose result is the same. `look`:
+    for collisions too."""
     seeds = range(cell.seed, cell.seed + times)
     if jobs == 1:
-        return tuple(_one(replace(cell, seed=seed), driven, limits) for seed in seeds)
+        return tuple(_one(replace(cell, seed=seed), driven, limits, look) for seed in seeds)
     with ProcessPoolExecutor(min(jobs, times), mp_context=get_context("spawn")) as pool:
         count = len(seeds)
         cells = [replace(cell, seed=seed) for seed in seeds]
-        return tuple(pool.map(_one, cells, [driven] * count, [limits] * count))
+        return tuple(pool.map(_one, cells, [driven] * count, [limits] * count, [look] * count))
 
 
-def _one(cell: Cell, driven: Sequence[Driven], limits: Limits) -> OneOfMany:
-    run = run_cell(cell, driven, limits)
+def _one(cell: Cell, driven: Sequence[Driven], limits: Limits, look: bool) -> OneOfMany:
+    collisions = None
+    if look:
+        run, found, _ = run_and_look(cell, driven, limits)
+        collisions = len(found.collisions)
+    else:
+        run = run_cell(cell, driven, limits)
     outcome = outcome_of(run)
-    missed = sum(not one.ok for one in outcome.grasps)
+    closings = [one for one in outcome.grasps if not one.lost]
+    missed = sum(not one.ok for one in closings)
     lost = sum(one.state == "lost" for one in outcome.parts)
     cycles = tuple(time for _, times in outcome.cycles for time in times)
-    return OneOfMany(cell.seed, run.status, run.time_s, cycles, len(outcome.grasps), missed, lost)
+    return OneOfMany(cell.seed, run.status, run.time_s, cycles, len(closings), missed, lost, collisions)
 
 
 def statistics(runs: Sequence[OneOfMany]) -> Statistics:

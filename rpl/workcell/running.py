@@ -98,12 +98,13 @@ def _machine(
 def its_share(cell: Cell, robot: str) -> Cell:
     """What a cell of several robots says of one: signals and variables that its name stands before, `left.di3`.
 
-    Raises UsageError for a signal that belongs to none of them.
+    Raises UsageError for one that belongs to none of them.
     """
     names = [one.name for one in cell.layout.robots]
-    for signal in (*(one.signal for one in cell.inputs), *(one.when for one in cell.reactions)):
-        if signal.partition(".")[0] not in names:
-            raise UsageError(f"{cell.path}: the signal {signal}: say whose it is: {names[0]}.{signal}")
+    for named in (*(one.signal for one in cell.inputs), *(one.when for one in cell.reactions), *cell.variables):
+        if named.partition(".")[0] not in names:
+            kind = "variable" if named in cell.variables else "signal"
+            raise UsageError(f"{cell.path}: the {kind} {named}: say whose it is: {names[0]}.{named}")
     reactions = []
     for one in cell.reactions:
         if (when := _own(robot, one.when)) is None:

@@ -21,11 +21,8 @@ def stopped_at(run: CellRun, first: Collision) -> CellRun:
     robots = []
     for one in run.robots:
         result = one.result
-        if result.status == "limit":
-            place = result.fault
-            origin = place.origin if place is not None else None
-            fault = Fault(COLLISION, text, place.task if place is not None else "")
-            fault = replace(fault, origin=origin) if origin is not None else fault
+        if result.status == "limit" and result.fault is not None:
+            fault = Fault(COLLISION, text, result.fault.task, result.fault.origin)
             result = replace(result, status="fault", fault=fault)
         robots.append(replace(one, result=result))
     return replace(run, robots=tuple(robots), status="fault", fault=f"{text} after {first.t:.3f} s")

@@ -27,7 +27,7 @@ from rpl.workcell.knocks import run_and_look
 from rpl.workcell.loading import robots_of
 from rpl.workcell.outcome import outcome_of
 from rpl.workcell.repeating import of_mean, of_share, repeat, statistics, student_t
-from rpl.workcell.running import run_cell
+from rpl.workcell.running import Driven, run_cell
 from rpl.workcell.stopping import stopped_at
 
 SAMPLES = Path(__file__).parents[2] / "samples" / "cells"
@@ -217,6 +217,88 @@ def test_a_translation_meets_the_same_bodies(target):
     run_of_theirs = run_program(theirs.program, arm, in_words_of(cell, read.program, theirs.program))
     values = [value for _, _, value in run_of_theirs.outputs]
     assert values == [True, False, True, False]
+
+
+def test_who_has_ended_still_lets_parts_fall_and_feeders_come():
+    """The left robot lets a box fall and ends at once; the right one waits for it below, and for the feeder's next."""
+    text = """
+[[robot]]
+name = "left"
+[[robot]]
+name = "right"
+[[gripper]]
+name = "hand"
+robot = "left"
+kind = "jaws"
+grip = [0, 0, 150]
+close = "do1"
+opening = [0, 80]
+[[fixture]]
+name = "table"
+box = [600, 800, 30]
+at = [500, 0, -15]
+[[part]]
+name = "box"
+box = [50, 50, 50]
+at = [500, -200, 25]
+copies = 2
+again = 30
+[[sensor]]
+name = "below"
+robot = "right"
+signal = "di1"
+box = [60, 60, 20]
+at = [500, 200, 25]
+[[sensor]]
+name = "at the feeder"
+robot = "right"
+signal = "di2"
+box = [20, 20, 20]
+at = [500, -200, 25]
+"""
+    left = """DEF left( )
+$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}
+$BASE=$NULLFRAME
+$VEL.CP=0.5
+PTP {X 500,Y -200,Z 100,A 0,B 0,C 180,S 2,T 2}
+LIN {X 500,Y -200,Z 30,A 0,B 0,C 180}
+$OUT[1]=TRUE
+WAIT SEC 0.1
+LIN {X 500,Y -200,Z 300,A 0,B 0,C 180}
+LIN {X 500,Y 200,Z 300,A 0,B 0,C 180}
+$OUT[1]=FALSE
+END
+"""
+    right = "DEF right( )\nWAIT FOR $IN[1]\nWAIT FOR $IN[2]\n$OUT[2]=TRUE\nEND\n"
+    cell, arm = parse_cell(text), load_robot("kuka_kr6r900sixx")
+    driven = [
+        Driven(place, read_program([source_from_bytes(f"{place.name}.src", code.encode())], "krl").program, arm)
+        for place, code in zip(cell.layout.robots, (left, right), strict=True)
+    ]
+    made = run_cell(cell, driven)
+    assert made.status == "finished", made.fault
+    ends_s = [one.result.time_s for one in made.robots]
+    assert ends_s[1] - ends_s[0] > 25.0  # the feeder's half minute began at the grasp
+    assert [value for _, _, value in made.robots[1].result.outputs] == [True]
+
+
+def test_variables_of_several_robots_need_a_name_before_them():
+    cell = replace(cell_of("handover/cell.toml"), variables={"count": 3})
+    with pytest.raises(UsageError, match=r"the variable count: say whose it is: left\.count"):
+        run(cell)
+
+
+def test_many_runs_count_collisions_and_no_loss_as_a_closing():
+    cell = cell_of("box_pick/krl.toml")
+    gripper = replace(cell.layout.grippers[0], misses=(), force_n=4.0)
+    heavy = replace(cell, layout=replace(cell.layout, grippers=(gripper,)))
+    driven = [one.driven for one in robots_of(heavy, Diagnostics())]
+    (one,) = repeat(heavy, driven, DEFAULTS, 1, 1, look=True)
+    assert (one.grasps, one.missed, one.collisions) == (1, 0, 0)
+    bridged = cell_of("handover/bridged.toml")
+    (hit,) = repeat(bridged, [each.driven for each in robots_of(bridged, Diagnostics())], DEFAULTS, 1, 1, look=True)
+    assert hit.collisions is not None
+    assert hit.collisions > 10
 
 
 def test_what_is_too_heavy_for_its_acceleration_is_lost():

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -74,18 +75,16 @@ def dropped(
     return counts
 
 
-def _settled(
-    step: Callable[..., None], model: object, data: object, hull: Hull, basins: Basins, leaving: FloatArray
-) -> int:
+def _settled(step: Callable[..., None], model: Any, data: Any, hull: Hull, basins: Basins, leaving: FloatArray) -> int:
     """The state that the part can no longer leave."""
     calm = 0
     while True:
         step(model, data, nstep=_BETWEEN)
-        down = -data.xmat[1].reshape(3, 3)[2]  # type: ignore[attr-defined]  # MuJoCo has no types
+        down = -data.xmat[1].reshape(3, 3)[2]
         state = int(basins.state_of[hull.under(down)])
-        energy = float(data.energy.sum()) / _GRAVITY  # type: ignore[attr-defined]  # the same
+        energy = float(data.energy.sum()) / _GRAVITY
         calm = calm + 1 if energy < leaving[state] else 0
-        if calm == 2 or data.time > _LONGEST_S:  # type: ignore[attr-defined]  # the same
+        if calm == 2 or data.time > _LONGEST_S:
             return state
 
 
